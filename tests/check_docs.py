@@ -16,7 +16,7 @@ from retired_words import retired_in
 SOURCES = ("model", "nn", "solver", "io", "app", "tests")
 # Folders that are checked for retired words too, and whether their comments are ("app/cli": False for its strings
 # alone): add one when it is clean.
-PLAIN_FOLDERS = {}
+PLAIN_FOLDERS = {"app/cli": True, "nn": False, "solver": False}
 # The folders and files at the root that a path in backticks may begin with.
 TOP = ("app", "io", "model", "nn", "resources", "solver", "tests", ".ci")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
@@ -137,9 +137,10 @@ def comment_problems(root):
 
 
 def word_problems(root, pages):
-    """Retired words in the pages and in PLAIN_FOLDERS."""
+    """Retired words in the pages, the texts of reports and PLAIN_FOLDERS."""
     figures = sorted((root / "resources/docs").rglob("*.svg"))
-    files = [(page, True) for page in [*pages, *figures, *sorted((root / ".github").rglob("*.md"))]]
+    files = [(page, True) for page in [*pages, *figures, *sorted((root / ".github").rglob("*.md")),
+                                  *sorted((root / "resources/reports").rglob("*.md"))]]
     files += [(file, comments) for folder, comments in PLAIN_FOLDERS.items()
               for file in sorted((root / folder).rglob("*")) if file.suffix in (".h", ".cpp", ".html")]
     for file, comments in files:

@@ -131,7 +131,7 @@ Exit Cli::runChosen() {
   Exit exit = Exit::Done;
   try {
     exit = run->second(session_);
-  } catch (const ConvergenceError& stopped) { // an outcome, no refusal: the JSON says how far it came
+  } catch (const ConvergenceError& stopped) { // an outcome, not a refusal: the JSON has how far it came
     std::cerr << "palp " << name << ": " << oneLine(stopped.what()) << '\n';
     session_.result["stop_reason"] = stopped.what();
     exit = Exit::NoResult;

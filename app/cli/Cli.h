@@ -22,8 +22,8 @@ struct UsageError : Error {
   using Error::Error;
 };
 
-/// What a running command has beside its own options. It fills `result` (the JSON object) and writes words to standard
-/// output only where `json` is false.
+/// What a running command has in addition to its own options. It fills `result` (the JSON object) and writes words to
+/// standard output only where `json` is false.
 struct Session {
   bool json = false;
   int threads = 0; ///< 0: all cores

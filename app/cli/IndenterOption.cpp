@@ -17,7 +17,7 @@ constexpr const char* kIndenterForm =
   throw badValue("--indenter", value, expected);
 }
 
-/// What stands before the first separator, which is taken off with it; all of it where there is none.
+/// The part before the first separator, which is taken off with it; all of it where there is none.
 std::string takeUpTo(char separator, std::string& rest) {
   const std::size_t end = rest.find(separator);
   std::string part = rest.substr(0, end);

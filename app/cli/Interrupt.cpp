@@ -27,7 +27,7 @@ constexpr double kEndWithin_s = 10; // the same work takes many times as long th
 constexpr double kEndWithin_s = 0.9;
 #endif
 
-/// How many processes each processor has to do now: a polite end takes so many times as long.
+/// Processes per processor now: a polite end takes that many times as long.
 double busyness() {
   constexpr double kMost = 4;
   double waiting = 1;

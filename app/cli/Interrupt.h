@@ -5,8 +5,8 @@
 
 namespace palp {
 
-/// Turns Ctrl-C (and a polite kill) into a stop request while it lives. A second Ctrl-C ends the process at once, and
-/// so does a second in which the work has not ended, as where a library cannot be interrupted. One at a time.
+/// Turns Ctrl-C (and a polite kill) into a stop request while it lives. A second Ctrl-C ends the process immediately,
+/// and so does a second in which the work has not ended, as where a library cannot be interrupted. One at a time.
 class Interrupt {
 public:
   Interrupt();

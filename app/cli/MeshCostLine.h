@@ -5,7 +5,7 @@
 
 namespace palp {
 
-/// Where a load on that mesh takes long or much memory, says so on standard error before it is made, and among the
+/// Where a load on that mesh takes long or much memory, prints this on standard error before it is made, and among the
 /// warnings.
 void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session);
 

@@ -26,7 +26,7 @@ SensorDesign designOption(const std::string& fileOrPreset);
 /// The same for a command that works by Eq. (1) alone: refuses the field law before any work is done.
 SensorDesign pairsDesignOption(const std::string& fileOrPreset, const std::string& command);
 
-/// --load AREA:FX,FY,FZ, --patch X,Y,RADIUS:FX,FY,FZ and, where the command knows them, --indenter (IndenterOption.h),
+/// --load AREA:FX,FY,FZ, --patch X,Y,RADIUS:FX,FY,FZ and, where the command has them, --indenter (IndenterOption.h),
 /// as often as wanted.
 struct LoadOptions {
   std::vector<std::string> loads;

@@ -16,9 +16,9 @@
 
 namespace palp {
 
-// What needs VTK. Without it (PALP_GUI=OFF) each adds a warning that says so, and the command goes on.
+// What needs VTK. Without it (PALP_GUI=OFF) each adds a warning, and the command continues.
 
-/// VTU file of the mesh, with the fields at its nodes and a current's way where there are any; sets `file` in the
+/// VTU file of the mesh, with the fields at its nodes and current paths where there are any; sets `file` in the
 /// result.
 void exportVtu(const OutputFile& output, const Mesh& mesh, const NodalFields* fields, const CurrentField* current,
                Session& session);

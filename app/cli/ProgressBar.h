@@ -6,7 +6,7 @@
 
 namespace palp {
 
-/// A line on standard error with the share done and the time left; silent where that is no terminal.
+/// A line on standard error with the share done and the time left; silent where that is not a terminal.
 class ProgressBar {
 public:
   ProgressBar(std::string what, std::size_t total);

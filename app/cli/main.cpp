@@ -6,7 +6,7 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused in words, as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused by a message, as a full disk is
   std::signal(SIGCHLD, SIG_DFL); // ignored by some who start us: our own processes' ends would be lost
   try {
     palp::Cli cli;

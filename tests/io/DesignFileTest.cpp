@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"[30, 30, 5]", "[30, 30, Infinity]", {"not valid JSON", "line 2"}},
         Slip{"[30, 30, 5]", "[30, 30, 1e999]", {"not valid JSON", "1e999"}},
         Slip{"0.499", "\"0.499\"", {"material.poisson_ratio", "\"0.499\"", "a number"}},
-        Slip{"0.499", "null", {"material.poisson_ratio is null", "a number"}},
+        Slip{"0.499", "null", {"material.poisson_ratio: got null", "a number"}},
         Slip{"\"poisson_ratio\": 0.499", "\"nu\": 0.499", {"unknown key material.nu", "poisson_ratio"}},
         Slip{"\"columns\": 3", "\"columns\": 2.5", {"areas.columns is 2.5", "whole number"}},
         Slip{"\"columns\": 3", "\"columns\": 1e20", {"areas.columns", "whole number"}},

@@ -115,7 +115,7 @@ def check_broken_h5():
     refused(copy_h5("g.h5", replace("area", area + 0.5)), "area", "whole")
     refused(copy_h5("h.h5", replace("forces_N", shape=(10**9, 3), chunks=(100, 3), dtype="f8")), "forces_N", "chunks")
     refused(copy_h5("i.h5", replace("area", shape=(10**12,), chunks=(100,), dtype="i4")), "area")
-    refused(copy_h5("j.h5", replace("area", np.array([b"x"] * 30))), "area", "no whole numbers")
+    refused(copy_h5("j.h5", replace("area", np.array([b"x"] * 30))), "area", "does not contain whole numbers")
     forces[7, 1] = np.inf
     refused(copy_h5("k.h5", replace("forces_N", forces)), "sample 7", "inf")
     refused(copy_h5("l.h5", replace("columns")), "columns")
@@ -128,7 +128,7 @@ def check_broken_npz():
         np.savez(name, **{k: v for k, v in {**arrays, **other}.items() if k not in drop})
         return name
     refused(twin("a.npz", drop=["seed"]), "seed")
-    refused(twin("b.npz", drop=["resistances_ohm"]), "resistances_ohm", "not there")
+    refused(twin("b.npz", drop=["resistances_ohm"]), "resistances_ohm", "is missing")
     refused(twin("c.npz", forces_N=arrays["forces_N"][:-1]), "forces_N", "29 x 3", "30 x 3")
     refused(twin("d.npz", forces_N=np.asfortranarray(arrays["forces_N"])), "forces_N", "Fortran")
     refused(twin("e.npz", forces_N=arrays["forces_N"].astype(">f8")), "forces_N", "big-endian")

@@ -77,7 +77,7 @@ void fill(Json& result, const CalibrationReport& report, double age_days) {
   result["age_days"] = age_days;
 }
 
-/// Of a board that says its read-out, and says another one than the design.
+/// Throws Error where the board reports another read-out than that of the design, or where readings are missing.
 void requireBoard(const CalibrateArguments& arguments, const SensorDesign& design, const RestRecording& rest) {
   if (design.field() && rest.info.readout && *rest.info.readout != design.field()->readout)
     throw Error(arguments.rest + ": the board has read-out " + kReadouts.name(*rest.info.readout) + ", the design " +
@@ -164,9 +164,9 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
   const CalibrationReport& report = calibration.report;
   const double age_days = ageInDays(arguments.frames);
   if (!report.improved)
-    session.warnings.emplace_back("on unseen frames, the refined network is no better than the old one");
+    session.warnings.emplace_back("on unseen frames, the refined network does not improve on the old one");
   if (report.place && !report.place->improved)
-    session.warnings.emplace_back("its positions are no better on unseen frames");
+    session.warnings.emplace_back("its positions do not improve on unseen frames");
   if (decoder.place && !report.place)
     session.warnings.emplace_back(
         "the frames have no positions, so the positions of the network are not refined (palp listen "

@@ -40,7 +40,7 @@ std::filesystem::path outputOf(std::vector<std::string>& arguments, const std::s
                    " to write");
 }
 
-/// Options of sbatch alone, in one line: what else stands there, a shell would take.
+/// Options of sbatch alone, in one line: a shell would interpret anything else.
 std::string slurmOptions(const std::string& typed) {
   constexpr std::string_view kPlain = "-_./,:=@+%~*[] ";
   const bool plain = std::all_of(typed.begin(), typed.end(), [&](unsigned char c) {
@@ -80,7 +80,7 @@ ClusterJob jobOf(const ClusterArguments& arguments) {
 
 Exit make(const ClusterArguments& arguments, Session& session) {
   ClusterJob job = jobOf(arguments);
-  if (!arguments.dryRun) requireRoom(job); // says why not, before it measures
+  if (!arguments.dryRun) requireRoom(job); // refuses before it measures
   if (arguments.submit && !arguments.dryRun) requireAccepted(job, session.stop);
   if (!session.json) std::cerr << "measuring the first " << (job.kind == "sample" ? "samples" : "design") << "\n";
   measure(job, session.stop);

@@ -102,7 +102,7 @@ struct Limits {
   double seconds = 0;       ///< 0: none
 };
 
-/// What takes part in a session beside it.
+/// What takes part in a session in addition to it.
 struct Listening {
   const ListenArguments& arguments;
   Session& session;
@@ -116,7 +116,7 @@ struct Listening {
   bool recording = false; ///< was begun
 };
 
-/// What goes wrong is said when it does, in words and on standard error.
+/// Errors are printed when they occur, on standard error.
 void warnOfStatus(Listening& all, const LiveStatus& status) {
   warnOnce(all.session, status.decoderProblem);
   warnOnce(all.session, status.recordingFailure);
@@ -144,7 +144,7 @@ void takeFrame(Listening& all, const LiveStatus& status, const LiveFrame& live, 
   }
 }
 
-/// What was asked for and was not done, in words; empty where all was.
+/// What was requested and not done, as text; empty where all was done.
 std::vector<std::string> undone(const Listening& all, const LiveStatus& status, bool decodes, int tareFrames) {
   std::vector<std::string> words;
   if (status.counts.reports > 0 && all.tally.frames == 0)
@@ -172,7 +172,7 @@ bool listen(LiveSession& live, Listening& all, const Limits& limits) {
   while (!all.session.stop.stop_requested()) {
     const LiveStatus status = live.status(); // before the frames: what ended has nothing to add
     if (status.state == LiveState::Streaming) lost_s = hostClock_s();
-    // A board that is there answers at once: what lasts a moment is no news.
+    // A board that is plugged in responds immediately: a short search is not reported.
     const bool lasts = status.state != LiveState::Searching || hostClock_s() - lost_s > kPatience_s;
     if (status.state != reported && status.state != LiveState::Ended && lasts) {
       const bool none = status.connections == 0 && status.state == LiveState::Searching;
@@ -245,7 +245,7 @@ void configureRow(LiveSession& live, const std::string& row) {
   throw UsageError("--row: this source cannot scan one row-wire only");
 }
 
-/// Says all that is left to say; whether everything was done that was asked for.
+/// Prints the totals; whether everything requested was done.
 bool finish(LiveSession& live, Listening& all, int tareFrames) {
   const std::optional<Decoder>& decoder = all.decoder;
   live.stop();

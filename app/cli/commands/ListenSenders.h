@@ -22,7 +22,7 @@ struct SendOptions {
 /// One sender a receiver; shared with the session that gives them its frames.
 class ListenSenders {
 public:
-  /// `wait`: the frames come from a recording, which waits for files and pipes. Throws Error, which says of which
+  /// `wait`: the frames come from a recording, which waits for files and pipes. Throws Error, which names the
   /// receiver.
   ListenSenders(const SendOptions& options, bool force, bool wait);
 
@@ -30,7 +30,7 @@ public:
   [[nodiscard]] std::function<void(const std::shared_ptr<const LiveFrame>&)> taker() const;
   /// Of those that take nothing any more, why.
   [[nodiscard]] std::vector<std::string> failures() const;
-  /// Once the session has ended: waits for the last frames, and tells what was sent and dropped.
+  /// Once the session has ended: waits for the last frames, and prints what was sent and dropped.
   void finish(Session& session) const;
 
 private:

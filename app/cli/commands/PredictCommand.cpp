@@ -138,7 +138,7 @@ void print(const Prediction& prediction, const std::optional<DecoderError>& erro
     std::cout << "detected: no touch in " << pressing(Pressing::None) << ", one touch in " << pressing(Pressing::One)
               << ", unlike the training in " << pressing(Pressing::Other) << '\n';
   if (error && error->rightAreas) std::cout << "right areas: " << 100 * *error->rightAreas << " %\n";
-  if (!error) std::cout << "two touches at once: a decoder gives one, so errors are not computed\n";
+  if (!error) std::cout << "two touches per sample: a decoder gives one, so errors are not computed\n";
 }
 
 nlohmann::ordered_json boundJson(const ErrorsOverBounds& over) {
@@ -153,7 +153,7 @@ void printBound(const std::string& who, const ErrorsOverBounds& over) {
             << " mm; errors / bounds: Fz " << over.forceRatio << ", position " << over.placeRatio << '\n';
 }
 
-/// Errors of force and place as multiples of what no estimate without a bias can beat, of one who knows so much each.
+/// Errors of force and position as multiples of the Cramer-Rao bounds, for what each bound takes as known.
 std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorDesign& design, const SampleSet& samples,
                                                                    const Decoder& decoder, const Prediction& prediction,
                                                                    double noise, Session& session) {
@@ -197,7 +197,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
   const SampleSet samples = loadSamples(arguments.samples, session.stop, true);
   requireReadout(decoder, samples.origin.readout, "the samples are");
   if (design && samples.beside.rows() > 0)
-    throw UsageError("--design: samples: " + gotExpected("two touches at once", "one touch per sample"));
+    throw UsageError("--design: samples: " + gotExpected("two touches per sample", "one"));
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
   Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
@@ -205,7 +205,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
   stopIfAsked(session.stop);
-  std::optional<DecoderError> error; // a decoder gives one touch: beside two there is no error to say
+  std::optional<DecoderError> error; // a decoder gives one touch: two have no error
   if (samples.beside.rows() == 0) error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
   if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas

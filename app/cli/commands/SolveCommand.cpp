@@ -149,13 +149,13 @@ Exit run(const SolveArguments& arguments, Session& session) {
         return discretisationError(*touch.problem(), load, *touch.solution(), session.stop, session.threads,
                                    touch.resistances_ohm());
       });
-    } catch (const Cancelled&) { // the solution stands all the same
+    } catch (const Cancelled&) { // the solution is kept
     }
   }
   report(touch, error ? &*error : nullptr, session);
   if (!session.json) print(touch, error ? &*error : nullptr);
   if (touch.solution()->converged) warnWhereFewNodesTouch(load, touch.solution()->state().indenters, session);
-  if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve is no result
+  if (!arguments.output.path.empty() && !session.stop.stop_requested()) { // half a solve has no result
     const NodalFields fields = touch.problem()->fields(touch.solution()->state());
     std::optional<CurrentField> current;
     if (pair)

@@ -62,7 +62,7 @@ Json indentersJson(const LoadCase& load, const std::vector<IndenterState>& state
 }
 
 void printIndenter(const Indenter& indenter, const IndenterState& state) {
-  const auto withoutRounding = [](const Eigen::Vector3d& v) -> Eigen::Vector3d { // 1e-17 N sideways is no force
+  const auto withoutRounding = [](const Eigen::Vector3d& v) -> Eigen::Vector3d { // 1e-17 N is rounding
     return (v.array().abs() > 1e-12 * v.norm()).select(v, Eigen::Vector3d::Zero());
   };
   const Eigen::Vector3d f = withoutRounding(state.force_N), d = withoutRounding(state.translation_mm);

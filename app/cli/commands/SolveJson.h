@@ -20,7 +20,7 @@ nlohmann::ordered_json newtonJson(const std::vector<NewtonStep>& steps);
 nlohmann::ordered_json displacementsJson(const SensorDesign& design, const ElectrodeDisplacements& displacements);
 nlohmann::ordered_json matrixJson(const Eigen::MatrixXd& matrix);
 nlohmann::ordered_json indentersJson(const LoadCase& load, const std::vector<IndenterState>& states);
-/// What an indenter does, in words for a terminal: a line.
+/// Force, displacement and contact of an indenter: a line for a terminal.
 void printIndenter(const Indenter& indenter, const IndenterState& state);
 
 } // namespace palp

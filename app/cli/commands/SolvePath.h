@@ -13,7 +13,7 @@ Exit solvePath(const SensorDesign& design, const std::vector<LoadCase>& path, co
                const NewtonOptions& options, const NewtonObserver& observer, const OutputFile& output,
                Session& session);
 
-/// Says which indenters touch so few nodes that their depth is not to be trusted.
+/// Warnings of indenters that touch too few nodes for an accurate depth.
 void warnWhereFewNodesTouch(const LoadCase& load, const std::vector<IndenterState>& indenters, Session& session);
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "app/study/decoding/Prediction.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/SampleFile.h"
+#include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 #include "nn/SpreadSweep.h"
@@ -84,8 +85,9 @@ Exit run(const SweepArguments& arguments, Session& session) {
   input.rows = rowsNamed(options.rows, training.rowWires);
   input.valuesPerRow = input.kind == InputKind::Displacement ? 3 * training.electrodesPerRowWire : training.columnWires;
   if (training.forces_N.rows() != test.forces_N.rows())
-    throw Error(arguments.test + ": " + std::to_string(test.forces_N.rows()) +
-                " forces a sample; the training samples have " + std::to_string(training.forces_N.rows()));
+    throw Error(arguments.test + ": forces per sample: " +
+                gotExpected(std::to_string(test.forces_N.rows()),
+                            std::to_string(training.forces_N.rows()) + ", as in the training samples"));
   const SweepInput data{inputsOf(training, input), training.forces_N,
                         noisyCopies(inputsOf(test, input), testNoise, 1, testSeed(options.seed)), test.forces_N,
                         training.forces_N.rowwise().maxCoeff() - training.forces_N.rowwise().minCoeff()};

@@ -51,7 +51,7 @@ std::string shardScript(const ClusterJob& job) {
   return "#!/bin/sh\n"
          "# One shard of " +
          all +
-         ", number $1: nothing where it is done; one that was ended goes on.\n"
+         ", number $1: nothing to do if it is complete; an interrupted one continues.\n"
          "n=$1\n"
          "cd " +
          shellWord(job.workFolder.string()) +
@@ -146,7 +146,7 @@ std::map<std::string, std::string> clusterScripts(const ClusterJob& job) {
       folder + "/merge.sh\n";
   scripts["here.sh"] = // GNU parallel hands its words to a shell of its own
       "#!/bin/sh\n"
-      "# All shards on this machine by GNU parallel, as many at a time as $1 says (1), then the merge.\n"
+      "# All shards on this machine by GNU parallel, $1 at a time (default 1), then the merge.\n"
       "seq " +
       all + " | parallel --jobs \"${1:-1}\" " + shellWord(folder + "/shard.sh") + " && exec " + folder + "/merge.sh\n";
   return scripts;

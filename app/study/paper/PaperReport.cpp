@@ -154,12 +154,13 @@ std::string paperReportHtml(const ProtocolResult& result, const std::vector<Repo
     page.paragraph(
         "Conventions: spread is MATLAB's radbas, phi(r) = exp(-ln 2 (r/spread)^2); 'one scale' takes the mean from "
         "every input and divides all by one number, so that the training sample farthest from the mean is at distance "
-        "1; 'min-max' brings each input by itself to [-1, 1]. The paper does not say how it scaled its inputs, and a "
-        "spread is a length in scaled inputs: places on the spread axis are therefore ours. What can be compared with "
+        "1; 'min-max' scales each input separately to [-1, 1]. The paper does not say how it scaled its inputs, and a "
+        "spread is a length in scaled inputs: positions on the spread axis are therefore ours. What can be compared "
+        "with "
         "the paper is the shape of the curve, the error at its best spread, and the error at the spread that "
         "leave-one-out chooses. Networks are trained on 100 forces on each of the "
         "six areas and tested on 100 other forces on each. The paper tests one area that it does not name: "
-        "which one it is changes the error by 10 to 1000 times, so the mean and the worst stand here.");
+        "which one it is changes the error by 10 to 1000 times, so the mean and the worst are given.");
   }
   if (!all.empty()) {
     page.heading("Deformation under a force on the first area (Figs. 4, 6, 7)");
@@ -172,7 +173,7 @@ std::string paperReportHtml(const ProtocolResult& result, const std::vector<Repo
   if (has(result, "fig12")) {
     page.heading("Force from resistance (Fig. 12, Figs. 13-16)");
     page.paragraph(
-        "The paper's text contradicts itself here: errors are said to fall with the spread, yet 0.5 is worse "
+        "The paper's text contradicts itself here: it states that errors fall with the spread, yet 0.5 is worse "
         "than 1. Its optimum near 1 appears with one scale for all inputs; with min-max for each input it "
         "moves to larger spreads (paper-minmax).");
     figure(page, result, all, "fig12");
@@ -187,7 +188,7 @@ std::string paperReportHtml(const ProtocolResult& result, const std::vector<Repo
   for (const auto& [stage, count] : result.stages.counts())
     stages.push_back({stage, std::to_string(count.runs), shortNumber(count.seconds)});
   page.table({"stage", "runs", "seconds"}, stages);
-  page.paragraph("Whole run " + shortNumber(run.seconds) + " s. " + machineLine() + ".");
+  page.paragraph("Total time " + shortNumber(run.seconds) + " s. " + machineLine() + ".");
   return page.html();
 }
 

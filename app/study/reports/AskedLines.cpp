@@ -66,8 +66,8 @@ std::string AskedLines::summary() const {
   const auto good = count(ReportTable::Mark::Good), half = count(ReportTable::Mark::Doubtful),
              bad = count(ReportTable::Mark::Bad);
   return std::to_string(good) + " of " + std::to_string(good + half + bad) +
-         " lines keep what is asked on every set of samples, " + std::to_string(half) + " in the median alone, " +
-         std::to_string(bad) + " do not.";
+         " requirements are met on every set of samples, " + std::to_string(half) + " only in the median, " +
+         std::to_string(bad) + " are not met.";
 }
 
 } // namespace palp

@@ -36,7 +36,8 @@ public:
 
 private:
   std::uint64_t firstSeed_;
-  ReportTable table_{"Fx / Fy / Fz", {"what", "asked", "median of the sets", "worst set", "beside it"}, {}, {}};
+  ReportTable table_{
+      "Fx / Fy / Fz", {"requirement", "largest error", "median of the sets", "worst set", "note"}, {}, {}};
   Csv csv_{{"what", "seed", "force", "value", "asked"}};
 };
 

@@ -90,7 +90,7 @@ void writeOrigin(ReportPage& page, const ReportContent& content, const ReportReq
   for (const auto& [stage, count] : content.stages.counts())
     rows.push_back({stage, std::to_string(count.runs), shortNumber(count.seconds)});
   if (!rows.empty()) page.table({"stage", "runs", "seconds"}, rows);
-  page.paragraph("Whole run " + shortNumber(seconds) + " s. " + machineLine() + ".");
+  page.paragraph("Total time " + shortNumber(seconds) + " s. " + machineLine() + ".");
 }
 
 } // namespace

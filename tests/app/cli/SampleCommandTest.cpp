@@ -199,7 +199,7 @@ TEST(SampleCommand, RefusesTouchesThatCannotBe) {
   refuses({"--touch", "sphere:6..3", "--count", "3"}, "sizes 6..3");
   refuses({"--touch", "flat:3", "--count", "3"}, "flat:FROM..TO,RIM");
   refuses({"--touch", "plane:3", "--count", "3"}, "a plane has no sizes");
-  refuses({"--touch", "sphere:3@1,2,3", "--count", "3"}, "--touch (place)");
+  refuses({"--touch", "sphere:3@1,2,3", "--count", "3"}, "--touch (region)");
   refuses({"--touch", "sphere:3@1,2,3,4", "--region", "1,2,3,4", "--count", "3"}, "not together with the region");
   refuses({"--touch", "sphere:3", "--region", "-5,0,30,30", "--count", "3"}, "top face");
   refuses({"--touch", "sphere:3", "--friction", "0.3..nan", "--count", "3"}, "--friction");

@@ -107,7 +107,7 @@ def check_pipe_and_file():
     output, errors = process.communicate(timeout=WAIT_s)
     assert process.returncode == 0, errors
     lines, others = output.splitlines(), open("file.csv").read().splitlines()
-    assert f"csv:-: {len(lines) - 1} frames sent" in errors and f"csv:file.csv: {len(others) - 1} frames" in errors, errors
+    assert f"csv:-: {len(lines) - 1} frames passed to the system" in errors and f"csv:file.csv: {len(others) - 1} frames" in errors, errors
     both = min(len(lines), len(others))
     assert both > 2 and lines[:both] == others[:both]
     for frame in csv.DictReader(lines):

@@ -9,7 +9,7 @@ namespace palp {
 /// --usb VENDOR:PRODUCT in hexadecimal, each with or without 0x. Throws UsageError.
 UsbId usbOption(const std::string& text);
 
-/// Throws UsageError where --device names a file that is no board's: not there, a serial port, another HID device.
+/// Throws UsageError where --device names a missing file, a serial port or another HID device.
 void requireDevice(const std::string& device, const std::string& usb);
 
 /// Why no board is found, and what shows more.

@@ -12,7 +12,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kUnknownNoise = 8;      // frames from which the noise is known: before, no force stands out of it
+constexpr int kUnknownNoise = 8;      // frames from which the noise is known: before, no force exceeds it
 constexpr double kSteadyTouch = 0.05; // of a force that rests on the sensor, that it may move
 
 KnownTouch labelledTouch(const std::string& label, const SensorDesign& design) {

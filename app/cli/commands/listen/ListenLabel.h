@@ -42,7 +42,7 @@ std::optional<LabelledMean> labelledMean(const LabelArguments& arguments, const 
 class TareQuestion {
 public:
   explicit TareQuestion(int frames) : wanted_(frames - 1) {}
-  /// The next frame. Throws Error with the last one, where a steady force that could be true stands out of the noise.
+  /// The next frame. Throws Error with the last one, where a plausible steady force exceeds the noise.
   void add(const DecodedForces& forces);
 
 private:

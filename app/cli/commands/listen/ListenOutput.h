@@ -22,7 +22,7 @@ struct ListenTally {
 /// Once, on standard error and among the warnings of --json.
 void warnOnce(Session& session, const std::string& warning);
 
-/// A frame of --json; `problem` says why there are no forces where the frame itself does not.
+/// A frame of --json; `problem` is the reason for missing forces where the frame has none.
 nlohmann::ordered_json frameJson(const LiveFrame& live, const std::string& problem);
 /// A frame for people.
 void printFrame(const LiveStatus& status, const LiveFrame& live);

@@ -42,7 +42,7 @@ std::vector<Touch> judgedTouches(const SensorDesign& design, bool quick) {
   Touch plain{sphere + ", no friction", {}};
   plain.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0, Motion{0.08 * h, {0, 0}}}};
   if (quick) return {plain};
-  Touch rough{sphere + ", " + shortNumber(aside.x()) + " mm aside, friction 0.5", {}};
+  Touch rough{sphere + ", " + shortNumber(aside.x()) + " mm shift, friction 0.5", {}};
   rough.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0.5, Motion{0.08 * h, aside}}};
   return {plain, rough};
 }
@@ -100,7 +100,7 @@ ReportChart chartOf(const std::vector<TouchRun>& runs, const std::string& file, 
   ReportChart chart{.file = file,
                     .caption = touch,
                     .title = "Touch: " + what,
-                    .xLabel = "wall time from nothing [s]",
+                    .xLabel = "wall time from scratch [s]",
                     .yLabel = "error of " + what + " [%]",
                     .logX = true,
                     .logY = true};
@@ -163,13 +163,14 @@ bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgres
   const auto program = design.material.poissonRatio < 0.5 ? calculixProgram() : std::nullopt;
   content.parts.push_back(ReportHeading{"Touches: error of force and electrodes against wall time"});
   content.parts.push_back(ReportWords{
-      "An indenter pressed by its way; its force is the answer. Errors against Palp's own answers, extrapolated "
+      "An indenter under displacement control; its force is the result. Errors against Palp's own results, "
+      "extrapolated "
       "(Richardson) from its two finest meshes with the order of the error estimate, 1.3. Wall time: meshing and all, "
       "one run each. " +
       std::string(program ? "CalculiX (ccx) ran in the same session on the same meshes and decks as palp mesh --format "
-                            "inp writes, its whole process, with as many threads; its contact is a stiff linear "
+                            "inp writes, its complete process, with as many threads; its contact is a stiff linear "
                             "pressure over the overlap, and its displacement elements lock where ours do not."
-                          : "CalculiX (ccx) is not installed or cannot take this rubber, so it is not beside them.")});
+                          : "CalculiX (ccx) is not installed or cannot take this rubber, so it is not compared.")});
   const std::vector<Touch> touches = judgedTouches(design, quick);
   for (std::size_t t = 0; t < touches.size(); ++t) {
     const Touch& touch = touches[t];

@@ -42,7 +42,7 @@ public:
     content_.parts.emplace_back(placesTable(layouts_));
     sweeps(*response);
     if (!confirm(*response)) return {};
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{"Assumptions"});
     content_.parts.push_back(ReportWords{kFieldAssumed});
     summarise();
     content_.csv = csv_.text();
@@ -102,11 +102,11 @@ private:
 
   /// A layout that is found with lower electrodes held may owe its gain to that.
   void heldOrFollowing(const AreaResponse& response) {
-    content_.parts.push_back(ReportHeading{"Lower electrodes held or following"});
-    content_.parts.push_back(
-        ReportWords{std::string("The layouts were searched with lower electrodes that ") +
-                    (request_.design.lowerFollowsRubber ? "follow the rubber" : "are held still") +
-                    ", as the design says. Real ones follow the rubber, unless they are fixed to something stiff."});
+    content_.parts.push_back(ReportHeading{"Lower electrodes fixed or following the rubber"});
+    content_.parts.push_back(ReportWords{
+        std::string("The layouts were searched with lower electrodes that ") +
+        (request_.design.lowerFollowsRubber ? "follow the rubber" : "are fixed") +
+        ", as in the design. Real electrodes follow the rubber, unless they are fixed to something stiff."});
     ReportTable table{"All row-wires, read by " + kReadouts.name(law_.readout) +
                           ": bound without prior, Fx / Fy / Fz and their geometric mean [% of range]",
                       {"layout", "lower electrodes", "Fx / Fy / Fz", "geometric mean"},

@@ -112,14 +112,14 @@ private:
 
   void introduce() {
     const FieldLaw* law = design_.field();
-    content_.parts.push_back(ReportHeading{"What is asked"});
+    content_.parts.push_back(ReportHeading{"Scope"});
     content_.parts.push_back(ReportWords{
         "A " + shapeName(range_.shape) + " of " + text(map_.touch.radius_mm) + " mm presses with " +
         text(-map_.touch.press()->force_N.z()) +
-        " N and is held by friction: its three forces and its place are unknown. All resistances by " +
+        " N and is held by friction: its three forces and its position are unknown. All resistances by " +
         (law ? "the field, read-out " + kReadouts.name(law->readout) : std::string("Eq. (1)")) +
         " are read, each with independent normal noise of " + text(kShownNoise) +
-        " of its value. The search lowers the largest Cramer-Rao bound of the place (the root of the sum of the "
+        " of its value. The search lowers the largest Cramer-Rao bound of the position (the root of the sum of the "
         "squares "
         "of the deviations along x and y) among " +
         std::to_string(searched_) + " places over the rectangle; the tables and maps are of " +
@@ -157,7 +157,7 @@ private:
       ReportMap picture;
       picture.file = "place-" + std::to_string(l);
       picture.title = "place, " + layouts_[l].name;
-      picture.caption = "Deviation of the place of a touch that friction holds, " + layouts_[l].name + ".";
+      picture.caption = "Deviation of the position of a sticking touch, " + layouts_[l].name + ".";
       picture.quantity = "place";
       picture.unit = "mm";
       picture.values = maps_[l].heldPlace_mm.transpose();
@@ -177,15 +177,15 @@ private:
   }
 
   void assumed() {
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{"Assumptions"});
     content_.parts.push_back(ReportWords{
-        std::string("The sensor is taken as linear, at rest; palp report map of a layout says how much that leaves "
-                    "out. ") +
+        std::string("The sensor is taken as linear, at rest; palp report map of a layout shows the error of this "
+                    "assumption. ") +
         (design_.field() ? kFieldTouched : kPairsTouched)});
   }
 
   void summarise() {
-    content_.summary = "Worst place of a touch that friction holds, noise " + text(kShownNoise) + ":";
+    content_.summary = "Worst position error of a sticking touch, noise " + text(kShownNoise) + ":";
     for (std::size_t l = 0; l < maps_.size(); ++l) {
       const double worst_mm = worstOf(maps_[l].heldPlace_mm);
       content_.summary += (l == 0 ? " " : ", ") + shortNumber(worst_mm) + " mm " + layouts_[l].name;

@@ -114,20 +114,22 @@ private:
 
   void introduce(const LinearReadings& readings) {
     const FieldLaw* law = design_.field();
-    content_.parts.push_back(ReportHeading{"What is asked"});
+    content_.parts.push_back(ReportHeading{"Scope"});
     content_.parts.push_back(ReportWords{
         "A " + shapeName(range_.shape) + " presses with " + text(force_N()) + " N at each of " +
-        std::to_string(base_.places[0]) + " x " + std::to_string(base_.places[1]) + " places from (" +
+        std::to_string(base_.places[0]) + " x " + std::to_string(base_.places[1]) + " positions from (" +
         text(base_.low_mm.x()) + ", " + text(base_.low_mm.y()) + ") to (" + text(base_.high_mm.x()) + ", " +
         text(base_.high_mm.y()) + ") mm. All " + std::to_string(readings.gradient_per_mm.rows()) + " resistances by " +
         (law ? "the field, read-out " + kReadouts.name(law->readout) : std::string("Eq. (1)")) +
         " are read, each with independent normal noise of " + text(base_.relativeNoise) +
         " of its value. The numbers are Cramer-Rao bounds: no estimate without a bias has smaller deviations; all are "
-        "in proportion to the noise but the two-point distance, which goes with its root at most."});
+        "proportional to the noise, except the two-point distance, which grows with its root at most."});
     content_.parts.push_back(ReportWords{
-        "Smallest force seen: a force straight down, at a known place, whose signal is three deviations. Without "
-        "friction the force down and the place are unknown; held by friction all three forces and the place. The "
-        "deviation of a place is the root of the sum of the squares of those along x and y; it goes with one over the "
+        "Smallest detectable force: a normal force at a known position whose signal is three deviations. Without "
+        "friction the normal force and the position are unknown; with sticking friction all three forces and the "
+        "position. The "
+        "deviation of a position is the root of the sum of the squares of those along x and y; it goes with one over "
+        "the "
         "force. Two-point distance: two touches of half the force each that no single touch explains to within three "
         "deviations, along x or y, whichever is worse."});
   }

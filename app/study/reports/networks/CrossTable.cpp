@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kSampling = 0.8;    // of the progress
 constexpr double kOtherRadius = 1.5; // times the design's
-constexpr double kUseful = 0.5;      // of the error of saying the mean: below, a decoder is called of use
+constexpr double kUseful = 0.5;      // of the error of predicting the mean: below, a decoder is called of use
 constexpr std::array kCrossDecoders{DecoderKind::Linear, DecoderKind::Rbf};
 
 /// A law with a read-out, its samples and its readings at rest.
@@ -66,7 +66,7 @@ public:
     introduce(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     tables();
     conclude();
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{"Assumptions"});
     content_.parts.push_back(ReportWords{kFieldAssumed});
     content_.csv = csv_.text();
     return std::move(content_);
@@ -144,7 +144,7 @@ private:
     const Eigen::Vector3d mean_N = laws_.front().training.forces_N.rowwise().mean();
     mean_percent_ = percentOfRange(test.forces_N.colwise() - mean_N);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
-      csv_.add({"saying the mean", "", "", "", kForceNames[static_cast<std::size_t>(axis)], mean_percent_(axis)});
+      csv_.add({"predicting the mean", "", "", "", kForceNames[static_cast<std::size_t>(axis)], mean_percent_(axis)});
   }
 
   void useEverywhere(std::size_t decoder, std::size_t trainedOn) {
@@ -206,22 +206,23 @@ private:
         text(kShownNoise) +
         " on every resistance in training and in the test. Samples are polynomials of the force for each area, error " +
         shortNumber(surrogateError_) +
-        " beside full solves. Errors are root mean squares over all areas in % of the force range, Fx / Fy / Fz; a "
-        "decoder does not know the area. Found in " +
+        " compared with full solves. Errors are root mean squares over all areas in % of the force range, Fx / Fy / "
+        "Fz; a "
+        "decoder does not know the area. Computed in " +
         shortNumber(seconds) + " s."});
     content_.parts.push_back(ReportWords{
         "As read: the decoder gets the resistances of the other law as they are. Scaled at rest: each reading is "
-        "first multiplied by what it had at rest in training over what it has at rest where it is used, a gain a "
-        "reading, as a tare does it. The field is between spheres of " +
-        text(law_.electrodeRadius_mm) + " mm radius unless it says else."});
+        "first multiplied by its value at rest in training over its value at rest in use, one gain per "
+        "reading, as in a tare. The field is between spheres of " +
+        text(law_.electrodeRadius_mm) + " mm radius unless stated otherwise."});
   }
 
   void tables() {
     for (std::size_t d = 0; d < kCrossDecoders.size(); ++d) {
       ReportTable table{"Decoder " + name(kCrossDecoders[d]) +
-                            ", Fx / Fy / Fz [% of range]; saying the mean: " + triple(mean_percent_) +
+                            ", Fx / Fy / Fz [% of range]; predicting the mean: " + triple(mean_percent_) +
                             ". Green: below half of that in every force, scaled at rest; red: "
-                            "some force no better than the mean",
+                            "some force at least at the error of the mean",
                         {"trained on", "used on", "as read", "scaled at rest"},
                         {},
                         {}};
@@ -253,17 +254,17 @@ private:
             carried += (carried.empty() ? "" : "; ") + name(kCrossDecoders[d]) + " from " + laws_[from].name + " to " +
                        laws_[on].name;
       }
-    content_.parts.push_back(ReportHeading{"What carries over"});
+    content_.parts.push_back(ReportHeading{"Decoders that work with another law"});
     content_.parts.push_back(ReportWords{
-        carried.empty() ? "Nothing: from no law to another one is a decoder twice as good as saying the mean in every "
+        carried.empty() ? "None: for no pair of laws is a decoder twice as good as predicting the mean in every "
                           "force, not even with each reading scaled at rest."
-                        : "Twice as good as saying the mean in every force, with each reading scaled at rest: " +
+                        : "Twice as good as predicting the mean in every force, with each reading scaled at rest: " +
                               carried + ". Nothing else."});
     const std::size_t linear = 0, pairs = 0;
     content_.summary = "A linear decoder trained on Eq. (1) and used on " + laws_[own_].name + " is wrong by " +
                        triple(at(linear, pairs, own_, true).percent) +
                        " % of the range of Fx / Fy / Fz with each reading scaled at rest, trained on it by " +
-                       triple(at(linear, own_, own_, true).percent) + "; saying the mean is wrong by " +
+                       triple(at(linear, own_, own_, true).percent) + "; always predicting the mean has an error of " +
                        triple(mean_percent_) + ".";
     const std::size_t last = laws_.size() - 1;
     if (laws_[last].key == std::string(kReadouts.name(law_.readout)) + "_larger")

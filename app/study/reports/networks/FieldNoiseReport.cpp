@@ -48,16 +48,16 @@ private:
   }
 
   void introduce() {
-    content_.parts.push_back(ReportHeading{"Laws and read-outs side by side"});
+    content_.parts.push_back(ReportHeading{"Comparison of laws and read-outs"});
     content_.parts.push_back(
-        ReportWords{"The field of the whole block between spheres of " + text(law_.electrodeRadius_mm) +
+        ReportWords{"The field of the complete block between spheres of " + text(law_.electrodeRadius_mm) +
                     " mm radius, resistivity " + text(law_.resistivity_ohm_mm) + " ohm mm, contact " +
                     text(law_.contact_ohm_mm2) + " ohm mm2, each wire and its switch " + text(law_.wire_ohm) +
                     " ohm. Everything is linear, at rest: the field without a mesh, displacements of electrodes and "
                     "faces by finite "
                     "elements. The design reads by " +
                     kReadouts.name(law_.readout) +
-                    ". Read-outs: floating: the two wires alone are driven; virtual_ground: all but "
+                    ". Read-outs: floating: only the two wires are driven; virtual_ground: all but "
                     "the row-wire at 0 V, the column-wire's current is read; rows_grounded: the same "
                     "while the other column-wires float; others_at_half: all other wires at half of "
                     "the drive voltage."});
@@ -143,7 +143,7 @@ private:
   }
 
   void assumptions() {
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{"Assumptions"});
     content_.parts.push_back(ReportWords{kFieldAssumed});
   }
 

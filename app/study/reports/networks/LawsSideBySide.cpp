@@ -23,12 +23,13 @@ LawsSideBySide::LawsSideBySide(const SensorDesign& design, const FieldLaw& law, 
 }
 
 ReportTable LawsSideBySide::signals() const {
-  ReportTable table{"At rest: mean and spread of R, and the change of ln R with the forces beside Eq. (1), over all "
-                    "readings and areas, Fx / Fy / Fz",
-                    {"law and read-out", "mean R [ohm]", "largest over smallest", "signal, times that of Eq. (1)",
-                     "correlation with Eq. (1)"},
-                    {},
-                    {}};
+  ReportTable table{
+      "At rest: mean and spread of R, and the change of ln R with the forces compared with Eq. (1), over all "
+      "readings and areas, Fx / Fy / Fz",
+      {"law and read-out", "mean R [ohm]", "largest over smallest", "signal, times that of Eq. (1)",
+       "correlation with Eq. (1)"},
+      {},
+      {}};
   for (const LawReading& reading : readings_) {
     const auto& [factor, correlation] = comparedWith(readings_.front().slopes, reading.slopes);
     table.rows.push_back({reading.name, shortNumber(reading.rest_ohm.mean()),

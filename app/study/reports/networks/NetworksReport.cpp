@@ -35,13 +35,13 @@ public:
   }
 
   std::optional<ReportContent> run() {
-    content_.title = "Networks: what is asked of them, and what they do";
+    content_.title = "Networks: requirements and results";
     content_.parts.push_back(ReportWords{
         "Every line is measured on " + std::to_string(seeds_) + " sets of " + std::to_string(request_.perArea) +
-        " training forces on each area, tested on as many other forces on all areas (seeds " +
+        " training forces per area, tested on as many other forces on all areas (seeds " +
         std::to_string(request_.seed) +
-        " on). 'Mean' and 'worst' are of the test areas, by Eq. (13) without a floor. "
-        "Green: every set keeps what is asked. Yellow: their median does. Red: neither."});
+        " and following). 'Mean' and 'worst' are of the test areas, by Eq. (13) without a floor. "
+        "Green: every set meets the requirement. Yellow: their median does. Red: neither."});
     if (!protocol() || !bySeed() || !together()) return {};
     content_.parts.emplace_back(lines_.table());
     content_.parts.emplace_back(std::move(chart_));
@@ -95,7 +95,7 @@ private:
     lines_.add("deformation, spread 1.5, worst area [%]", {0.01, 0.02, 0.05}, areaErrors(at(table, 1.5), true), "");
     lines_.add("resistance, spread 1, worst area [%]", {0.02, 0.1, 0.1}, areaErrors(at(resistance, 1), true), "");
     const ProtocolRow& half = at(resistance, 0.5);
-    lines_.add("resistance, spread 0.5, mean of the areas [%]; the paper's numbers, median asked",
+    lines_.add("resistance, spread 0.5, mean of the areas [%]; the paper's numbers, required of the median",
                *half.published_percent, areaErrors(half, false), "");
     const Triples linear = areaErrors(curve(*result, "table1", "linear").rows.front(), false);
     const Triples network = areaErrors(at(table, 1.5), false);
@@ -108,11 +108,12 @@ private:
   void paperMode(const ProtocolResult& result) {
     const ProtocolCurve& table = curve(result, "table1", "paper");
     const Triples from = areaErrors(at(table, 0.8), false), to = areaErrors(at(table, 1.5), false);
-    lines_.add("mode paper, Table 1: error at 1.5 over that at 0.8, median asked", Eigen::Vector3d::Constant(0.5),
-               ratios(to, from), "");
+    lines_.add("mode paper, Table 1: error at 1.5 over that at 0.8, required of the median",
+               Eigen::Vector3d::Constant(0.5), ratios(to, from), "");
     for (const char* mode : {"paper", "paper-minmax"}) {
       const ProtocolCurve& figure = curve(result, "fig12", mode);
-      ReportCurve drawn{.name = mode == std::string("paper") ? "one factor for all inputs" : "each input by itself"};
+      ReportCurve drawn{.name = mode == std::string("paper") ? "one factor for all inputs"
+                                                             : "each input scaled separately"};
       for (const ProtocolRow& row : figure.rows) {
         drawn.x.push_back(*row.spread);
         drawn.y.push_back(row.eq13Mean_percent().mean());
@@ -279,7 +280,7 @@ private:
 
   /// All areas loaded at once.
   bool together() {
-    say(0.9, "all areas at once");
+    say(0.9, "all areas together");
     SampleSet sets[2];
     for (const bool test : {false, true}) {
       SampleRequest wanted;
@@ -307,7 +308,7 @@ private:
       for (int axis = 0; axis < 3; ++axis)
         percent(axis) = 100 * rms_N.reshaped(3, rms_N.size() / 3).row(axis).maxCoeff() / range_N_(axis);
       if (noise == 0) {
-        lines_.add("18 forces at once from all row-wires, worst area [% of range]", Eigen::Vector3d::Constant(0.001),
+        lines_.add("18 forces together from all row-wires, worst area [% of range]", Eigen::Vector3d::Constant(0.001),
                    {percent}, "spread auto");
         continue;
       }
@@ -319,7 +320,7 @@ private:
       const Eigen::VectorXd overBound = (100 * rms_N.array() / trainingRange_N / bound.array()).matrix();
       for (int axis = 0; axis < 3; ++axis)
         ratio(axis) = overBound.reshaped(3, overBound.size() / 3).row(axis).maxCoeff();
-      lines_.add("18 forces at once at noise 1e-4: error over the bound without prior, worst area",
+      lines_.add("18 forces together at noise 1e-4: error over the bound without prior, worst area",
                  Eigen::Vector3d::Constant(1.3), {ratio}, "error " + triple(percent) + " % of range");
     }
     return true;
@@ -335,7 +336,7 @@ private:
   AskedLines lines_;
   ReportChart chart_{.file = "fig12",
                      .caption =
-                         "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled by itself",
+                         "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled separately",
                      .title = "Error from resistance against spread, mode paper",
                      .xLabel = "spread (radbas)",
                      .yLabel = "Eq. (13), mean of areas and forces [%]",

@@ -153,8 +153,8 @@ private:
   void window() {
     content_.parts.push_back(ReportHeading{"The window"});
     if (!has("palp-studio")) {
-      say("Not run: palp-studio is not beside this palp (it was built without the window, PALP_GUI=OFF).");
-      csv_.add({"window", "not run: no palp-studio beside palp", "", "", "", "", "", "", "", "", "", "", ""});
+      say("Not run: palp-studio is not in the folder of this palp (it was built without the window, PALP_GUI=OFF).");
+      csv_.add({"window", "not run: no palp-studio in the folder of palp", "", "", "", "", "", "", "", "", "", "", ""});
       content_.summary += "The window was not run. ";
       return;
     }
@@ -187,14 +187,14 @@ private:
         " pixels, drawn by the processor alone), with settings of its own: once through all scenes twice in turn with "
         "nothing changed, then each scene in a process of its own. Opening counts from the program's start. A step "
         "ends with its last picture; its seconds are found to 0.01, its pictures are counted 0.15 s longer, or 0.6 s "
-        "in Live, where the simulated board presses and draws on and on. Left alone and hidden are watched for 1 s. "
+        "in Live, where the simulated board presses and draws continuously. Left alone and hidden are watched for 1 s. "
         "Pictures are renderings of 3D views, charts and heatmaps; drawn unseen adds every painting in scenes that "
-        "are not seen. Held is what the process holds after the step, with the factorisation that the next load "
-        "needs; it is given back after a rest.");
+        "are not seen. Held is the memory of the process after the step, with the factorisation that the next load "
+        "needs; it is released after a pause.");
     content_.parts.emplace_back(std::move(table));
-    if (!words.empty()) say("Not as it should be: " + words);
+    if (!words.empty()) say("Faults: " + words);
     if (!costs.failed.empty()) {
-      say("Not run to its end: " + costs.failed + ".");
+      say("Not completed: " + costs.failed + ".");
       csv_.add({"window", "not run to its end", costs.failed, "", "", "", "", "", "", "", "", "", costs.failed});
     }
     content_.summary += std::to_string(costs.steps.size()) + " steps in the window: " + std::to_string(faults) +
@@ -206,8 +206,9 @@ private:
   void commands() {
     content_.parts.push_back(ReportHeading{"Commands"});
     if (!has("palp")) {
-      say("Not run: there is no palp beside this program.");
-      csv_.add({"command", "not run: no palp beside this program", "", "", "", "", "", "", "", "", "", "", ""});
+      say("Not run: there is no palp in the folder of this program.");
+      csv_.add(
+          {"command", "not run: no palp in the folder of this program", "", "", "", "", "", "", "", "", "", "", ""});
       content_.summary += "Commands were not run.";
       return;
     }
@@ -226,8 +227,8 @@ private:
       failed += c.failed.empty() ? 0 : 1;
     }
     say("Memory at most: the kernel's own high-water mark of the process (VmHWM), read every 2 ms. sensor.json is this "
-        "report's design. listen runs for the 2 s that it is asked for. Not run here: palp report itself, whose pages "
-        "say at their foot what each took.");
+        "report's design. listen runs for the requested 2 s. Not run here: palp report itself, whose pages "
+        "end with the time that each took.");
     content_.parts.emplace_back(std::move(table));
     content_.summary += std::to_string(costs.size()) + " commands, " + std::to_string(failed) + " of them failed.";
   }

@@ -78,7 +78,7 @@ private:
 
   static void check(StabilityRow& row, const LoadCase& load, const Solution& solution) {
     row.iterations = solution.iterations();
-    row.errorOf = "the reaction, the force asked for, and no pull";
+    row.errorOf = "the reaction, the prescribed force, and no pull";
     Eigen::Vector3d sum = solution.reaction_N;
     double scale = 0, worst = 0;
     int fewest = kFewTouchingNodes;

@@ -51,14 +51,14 @@ void train(StabilityRow& row, const NetworkData& data, const RbfOptions& options
   const bool honest = !poor || promised_percent > kNothing_percent / kEstimateFactor || !fit.report.warnings.empty();
   if (poor) row.outcome = honest ? StabilityOutcome::Warned : StabilityOutcome::Wrong;
   if (poor)
-    row.words = "worse than knowing nothing; its leave-one-out error says " + shortNumber(promised_percent) + " %. ";
+    row.words = "worse than predicting the mean; its leave-one-out error is " + shortNumber(promised_percent) + " %. ";
   if (!poor && row.error > kEstimateFactor * promised_percent && row.error > 1 && fit.report.warnings.empty()) {
     row.outcome = StabilityOutcome::Wrong;
-    row.words = "its leave-one-out error promises " + shortNumber(promised_percent) + " %. ";
+    row.words = "its leave-one-out error is only " + shortNumber(promised_percent) + " %. ";
   }
   if (row.outcome == StabilityOutcome::Right && row.error > kPoor_percent) {
     row.outcome = StabilityOutcome::Warned;
-    row.words = "a poor network; its leave-one-out error says " + shortNumber(promised_percent) + " % of range. ";
+    row.words = "a poor network; its leave-one-out error is " + shortNumber(promised_percent) + " % of range. ";
   }
   for (const std::string& warning : fit.report.warnings) row.words += warning + ". ";
   if (row.outcome == StabilityOutcome::Right && !fit.report.warnings.empty()) row.outcome = StabilityOutcome::Warned;

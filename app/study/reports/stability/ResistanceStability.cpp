@@ -75,10 +75,10 @@ void addResistanceCases(StabilityCases& cases, const ReportRequest& request) {
                 judge(row, 1e-9);
                 if (inversion.rank == 3 * design.electrodesPerRowWire()) return;
                 row.outcome = StabilityOutcome::Warned;
-                row.words = "the inversion says that the system has rank " + std::to_string(inversion.rank) + " of " +
+                row.words = "the inversion reports rank " + std::to_string(inversion.rank) + " of " +
                             std::to_string(3 * design.electrodesPerRowWire()) +
                             ": the displacements do not follow "
-                            "from the resistances here, and the step of smallest norm is taken";
+                            "from the resistances here, and the step of smallest norm is used";
               });
 }
 

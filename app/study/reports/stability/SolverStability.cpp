@@ -176,7 +176,7 @@ private:
   }
 
   void areas() {
-    cases_.add("areas", "all six at once, (0.5, -0.5, -6) N each", [&](StabilityRow& row) {
+    cases_.add("areas", "all six together, (0.5, -0.5, -6) N each", [&](StabilityRow& row) {
       LoadCase load;
       for (int area = 0; area < request_.design.areas.count(); ++area) load.areas.push_back({area, {0.5, -0.5, -6}});
       check(row, request_.design, load, mesh_);

@@ -50,14 +50,15 @@ std::string csvOf(const std::vector<StabilityRow>& rows) {
 
 /// Error of a network against its spread, for both tails.
 ReportChart spreadChart(const std::vector<StabilityRow>& rows) {
-  ReportChart chart{"spread",
-                    "Error of networks over nine decades of spread, clean displacements; 28.9 % is knowing nothing",
-                    "Networks and their spread",
-                    "spread (radbas)",
-                    "error [% of range]",
-                    true,
-                    true,
-                    {}};
+  ReportChart chart{
+      "spread",
+      "Error of networks over nine decades of spread, clean displacements; 28.9 % is always predicting the mean",
+      "Networks and their spread",
+      "spread (radbas)",
+      "error [% of range]",
+      true,
+      true,
+      {}};
   for (const char* group : {"network: spread, linear tail", "network: spread, bias only"}) {
     ReportCurve curve{.name = std::string(group).substr(17)};
     for (const StabilityRow& row : rows)
@@ -102,12 +103,12 @@ std::optional<ReportContent> stabilityReport(const ReportRequest& request, const
 
   content.summary = summary(rows);
   content.parts.push_back(ReportWords{
-      "Green: the result is right, or the input was refused with a sentence. Yellow: no full or no good result, and it "
-      "was said (load fraction reached, rank, warning). Red: a wrong result without a word. Solver cases run on a "
-      "coarse mapped mesh, for what is tested is not the mesh; their answers are checked by an equilibrium computed "
+      "Green: the result is right, or the input was refused with a message. Yellow: an incomplete or poor result that "
+      "was reported (load fraction reached, rank, warning). Red: a wrong result, silently. Solver cases run on a "
+      "coarse mapped mesh, because the mesh is not under test; their results are checked by an equilibrium computed "
       "independently from the stress formula, not by the solver's own residual. Those of the default mesh of "
       "tetrahedra are "
-      "compared with hexahedra, an element that has nothing in common with it: they agree to their discretisation "
+      "compared with hexahedra, an unrelated element: they agree to their discretisation "
       "errors."});
   std::vector<std::string> groups;
   for (const StabilityRow& row : rows)
