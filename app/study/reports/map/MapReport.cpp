@@ -3,6 +3,7 @@
 #include "app/study/Median.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/map/MapQuantities.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/DesignError.h"
@@ -58,7 +59,7 @@ public:
 
   std::optional<ReportContent> run() {
     ask();
-    content_.title = "Resolution over the surface";
+    content_.title = words_("title");
     content_.warnings = designWarnings(design_);
     progress(0, "the readings at rest");
     const LinearReadings readings =
@@ -114,29 +115,24 @@ private:
 
   void introduce(const LinearReadings& readings) {
     const FieldLaw* law = design_.field();
-    content_.parts.push_back(ReportHeading{"Scope"});
-    content_.parts.push_back(ReportWords{
-        "A " + shapeName(range_.shape) + " presses with " + text(force_N()) + " N at each of " +
-        std::to_string(base_.places[0]) + " x " + std::to_string(base_.places[1]) + " positions from (" +
-        text(base_.low_mm.x()) + ", " + text(base_.low_mm.y()) + ") to (" + text(base_.high_mm.x()) + ", " +
-        text(base_.high_mm.y()) + ") mm. All " + std::to_string(readings.gradient_per_mm.rows()) + " resistances by " +
-        (law ? "the field, read-out " + kReadouts.name(law->readout) : std::string("Eq. (1)")) +
-        " are read, each with independent normal noise of " + text(base_.relativeNoise) +
-        " of its value. The numbers are Cramer-Rao bounds: no estimate without a bias has smaller deviations; all are "
-        "proportional to the noise, except the two-point distance, which grows with its root at most."});
-    content_.parts.push_back(ReportWords{
-        "Smallest detectable force: a normal force at a known position whose signal is three deviations. Without "
-        "friction the normal force and the position are unknown; with sticking friction all three forces and the "
-        "position. The "
-        "deviation of a position is the root of the sum of the squares of those along x and y; it goes with one over "
-        "the "
-        "force. Two-point distance: two touches of half the force each that no single touch explains to within three "
-        "deviations, along x or y, whichever is worse."});
+    content_.parts.push_back(ReportHeading{words_("scope heading")});
+    content_.parts.push_back(ReportWords{words_(
+        "scope", {{"shape", shapeName(range_.shape)},
+                  {"force", text(force_N())},
+                  {"columns", std::to_string(base_.places[0])},
+                  {"rows", std::to_string(base_.places[1])},
+                  {"x0", text(base_.low_mm.x())},
+                  {"y0", text(base_.low_mm.y())},
+                  {"x1", text(base_.high_mm.x())},
+                  {"y1", text(base_.high_mm.y())},
+                  {"readings", std::to_string(readings.gradient_per_mm.rows())},
+                  {"law", law ? words_("by field", {{"readout", kReadouts.name(law->readout)}}) : words_("by pairs")},
+                  {"noise", text(base_.relativeNoise)}})});
+    content_.parts.push_back(ReportWords{words_("quantities")});
   }
 
   void tables() {
-    ReportTable table{"Deviations at noise " + text(base_.relativeNoise) + " and " + text(force_N()) +
-                          " N, median / worst place",
+    ReportTable table{words_("table caption", {{"noise", text(base_.relativeNoise)}, {"force", text(force_N())}}),
                       {"radius [mm]", "contact radius [mm]"},
                       {},
                       {}};
@@ -154,7 +150,7 @@ private:
             csv_.add({quantity.name + " [" + quantity.unit + "]", of.size_mm, places(0, i), places(1, i), value});
       }
     }
-    content_.parts.push_back(ReportHeading{"What is resolved"});
+    content_.parts.push_back(ReportHeading{words_("table heading")});
     content_.parts.emplace_back(std::move(table));
   }
 
@@ -164,16 +160,19 @@ private:
       for (const MapOfSize& of : maps_) {
         ReportMap picture;
         picture.file = quantity.file + "-" + text(of.size_mm) + "mm";
-        picture.caption = sentence(quantity.name) + " over the face, " + shapeName(range_.shape) + " of " +
-                          text(of.size_mm) + " mm, noise " + text(base_.relativeNoise) + ".";
-        picture.title = quantity.name + ", " + shapeName(range_.shape) + " of " + text(of.size_mm) + " mm";
+        picture.caption = words_("map caption", {{"quantity", sentence(quantity.name)},
+                                                 {"shape", shapeName(range_.shape)},
+                                                 {"size", text(of.size_mm)},
+                                                 {"noise", text(base_.relativeNoise)}});
+        picture.title = words_(
+            "map title", {{"quantity", quantity.name}, {"shape", shapeName(range_.shape)}, {"size", text(of.size_mm)}});
         picture.quantity = quantity.name;
         picture.unit = quantity.unit;
         picture.values = quantity.of(of.map).transpose();
         picture.low_mm = base_.low_mm;
         picture.high_mm = base_.high_mm;
         if (finite(picture.values).empty()) {
-          content_.parts.push_back(ReportWords{picture.title + ": nowhere on these places."});
+          content_.parts.push_back(ReportWords{words_("no map", {{"title", picture.title}})});
           continue;
         }
         content_.parts.emplace_back(std::move(picture));
@@ -229,16 +228,11 @@ private:
   }
 
   void assumed() {
-    content_.parts.push_back(ReportHeading{"What is assumed"});
+    content_.parts.push_back(ReportHeading{words_("assumptions heading")});
     content_.parts.push_back(
-        ReportWords{"The sensor is taken as linear, at rest: the block's answer by influence surfaces (one solve a "
-                    "resistance), the "
-                    "contact's radius and pressure by Hertz and by the layer's integral equation. Of " +
-                    std::to_string(kCheckedTouches) +
-                    " touches at random places solved with large strains and their own contact, "
-                    "this linear answer leaves out " +
-                    shortNumber(100 * nonlinear_) + " % of d ln R (root mean square). " +
-                    (design_.field() ? kFieldTouched : kPairsTouched)});
+        ReportWords{words_("assumptions", {{"touches", std::to_string(kCheckedTouches)},
+                                           {"percent", shortNumber(100 * nonlinear_)},
+                                           {"law", design_.field() ? kFieldTouched : kPairsTouched}})});
   }
 
   void summarise() {
@@ -254,16 +248,19 @@ private:
     add("place_without_friction_mm", middle.map.slipperyPlace_mm);
     add("two_point_mm", middle.map.twoPoint_mm);
     content_.figures.emplace_back("left_out_percent", 100 * nonlinear_);
-    content_.summary = "A " + shapeName(range_.shape) + " of " + text(middle.size_mm) + " mm, noise " +
-                       text(base_.relativeNoise) + ", median / worst place: smallest force seen " +
-                       medianAndWorst(middle.map.smallestForce_N) + " N; at " + text(force_N()) + " N the place to " +
-                       medianAndWorst(middle.map.slipperyPlace_mm) + " mm without friction, " +
-                       medianAndWorst(middle.map.heldPlace_mm) + " mm held by it; two touches apart at " +
-                       medianAndWorst(middle.map.twoPoint_mm) + " mm.";
+    content_.summary = words_("summary", {{"shape", shapeName(range_.shape)},
+                                          {"size", text(middle.size_mm)},
+                                          {"noise", text(base_.relativeNoise)},
+                                          {"smallest", medianAndWorst(middle.map.smallestForce_N)},
+                                          {"force", text(force_N())},
+                                          {"free", medianAndWorst(middle.map.slipperyPlace_mm)},
+                                          {"sticking", medianAndWorst(middle.map.heldPlace_mm)},
+                                          {"apart", medianAndWorst(middle.map.twoPoint_mm)}});
   }
 
   double force_N() const { return -base_.touch.press()->force_N.z(); }
 
+  const ReportText words_{"map"};
   const ReportRequest& request_;
   const SensorDesign& design_;
   ReportProgress progress_;

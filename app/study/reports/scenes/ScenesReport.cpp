@@ -3,6 +3,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ProcessMemory.h"
 #include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/Timing.h"
 #include "app/study/reports/scenes/CommandCosts.h"
 #include "app/study/reports/scenes/WindowCosts.h"
@@ -104,7 +105,7 @@ public:
       : request_(request), progress_(std::move(progress)), stop_(std::move(stop)) {}
 
   std::optional<ReportContent> run() {
-    content_.title = "Scenes and commands: what each costs";
+    content_.title = words_("title");
     chain();
     if (!stop_.stop_requested()) window();
     if (!stop_.stop_requested()) commands();
@@ -114,7 +115,7 @@ public:
   }
 
 private:
-  void say(const std::string& sentence) { content_.parts.emplace_back(ReportWords{sentence}); }
+  void add(const std::string& sentence) { content_.parts.emplace_back(ReportWords{sentence}); }
   [[nodiscard]] bool has(const std::string& program) const {
     return !request_.programs.empty() && std::filesystem::exists(request_.programs / program);
   }
@@ -127,7 +128,7 @@ private:
       partOf(progress_, 0, 0.15)(static_cast<double>(i) / static_cast<double>(all.size()), "the chain, " + all[i].name);
       meter.run(all[i], costs);
     }
-    ReportTable table{"A row is green where no stage ran that the scene does not show",
+    ReportTable table{words_("chain caption"),
                       {"scene", "event", "meshes", "factorisations", "solves", "seconds", "memory [MB]"},
                       {},
                       {}};
@@ -140,28 +141,24 @@ private:
                 c.tooMuch ? "a stage ran that is not shown" : ""});
       tooMuch += c.tooMuch ? 1 : 0;
     }
-    content_.parts.push_back(ReportHeading{"The chain alone"});
-    say("The chain is design, mesh, solution, displacements, resistances. A scene names the furthest stage that it "
-        "shows; a change drops what comes after it; a hidden scene asks for nothing. Counted with the very chain "
-        "(Touch) that the window uses, without its pictures; memory is what the process holds more after the event, "
-        "which the allocator may keep from before: then it is 0 or negative.");
+    content_.parts.push_back(ReportHeading{words_("chain heading")});
+    add(words_("chain"));
     content_.parts.emplace_back(std::move(table));
-    content_.summary = std::to_string(costs.size()) + " events of the chain: in " + std::to_string(tooMuch) +
-                       " of them a stage ran that the scene does not show. ";
+    content_.summary =
+        words_("chain summary", {{"events", std::to_string(costs.size())}, {"faults", std::to_string(tooMuch)}}) + " ";
   }
 
   void window() {
-    content_.parts.push_back(ReportHeading{"The window"});
+    content_.parts.push_back(ReportHeading{words_("window heading")});
     if (!has("palp-studio")) {
-      say("Not run: palp-studio is not in the folder of this palp (it was built without the window, PALP_GUI=OFF).");
+      add(words_("no window"));
       csv_.add({"window", "not run: no palp-studio in the folder of palp", "", "", "", "", "", "", "", "", "", "", ""});
-      content_.summary += "The window was not run. ";
+      content_.summary += words_("no window summary") + " ";
       return;
     }
     const WindowCosts costs = windowCosts(request_, partOf(progress_, 0.15, 0.4), stop_);
     if (stop_.stop_requested()) return;
-    ReportTable table{"A row is green where no stage ran that the scene does not show or has already, and nothing was "
-                      "drawn in a scene that is not seen",
+    ReportTable table{words_("window caption"),
                       {"scene", "step", "meshes", "factorisations", "solves", "pictures", "drawn unseen", "seconds",
                        "CPU [s]", "held [MB]", "at most [MB]"},
                       {},
@@ -182,38 +179,33 @@ private:
       unseen += s.hiddenPictures;
       if (s.event.starts_with("in turn")) solves += s.runs[2];
     }
-    say("palp-studio ran without a display (" + std::to_string(costs.window_px[0]) + " x " +
-        std::to_string(costs.window_px[1]) +
-        " pixels, drawn by the processor alone), with settings of its own: once through all scenes twice in turn with "
-        "nothing changed, then each scene in a process of its own. Opening counts from the program's start. A step "
-        "ends with its last picture; its seconds are found to 0.01, its pictures are counted 0.15 s longer, or 0.6 s "
-        "in Live, where the simulated board presses and draws continuously. Left alone and hidden are watched for 1 s. "
-        "Pictures are renderings of 3D views, charts and heatmaps; drawn unseen adds every painting in scenes that "
-        "are not seen. Held is the memory of the process after the step, with the factorisation that the next load "
-        "needs; it is released after a pause.");
+    add(words_("window",
+               {{"width", std::to_string(costs.window_px[0])}, {"height", std::to_string(costs.window_px[1])}}));
     content_.parts.emplace_back(std::move(table));
-    if (!words.empty()) say("Faults: " + words);
+    if (!words.empty()) add(words_("faults", {{"faults", words}}));
     if (!costs.failed.empty()) {
-      say("Not completed: " + costs.failed + ".");
+      add(words_("incomplete", {{"why", costs.failed}}));
       csv_.add({"window", "not run to its end", costs.failed, "", "", "", "", "", "", "", "", "", costs.failed});
     }
-    content_.summary += std::to_string(costs.steps.size()) + " steps in the window: " + std::to_string(faults) +
-                        " with work that is not shown; all scenes twice in turn took " + std::to_string(solves) +
-                        (solves == 1 ? " solve; " : " solves; ") + std::to_string(unseen) +
-                        " pictures were drawn unseen. " + (costs.failed.empty() ? "" : "Not all of it ran. ");
+    content_.summary +=
+        words_("window summary", {{"steps", std::to_string(costs.steps.size())},
+                                  {"faults", std::to_string(faults)},
+                                  {"solves", std::to_string(solves) + (solves == 1 ? " solve" : " solves")},
+                                  {"unseen", std::to_string(unseen)}}) +
+        " " + (costs.failed.empty() ? "" : words_("incomplete summary") + " ");
   }
 
   void commands() {
-    content_.parts.push_back(ReportHeading{"Commands"});
+    content_.parts.push_back(ReportHeading{words_("commands heading")});
     if (!has("palp")) {
-      say("Not run: there is no palp in the folder of this program.");
+      add(words_("no commands"));
       csv_.add(
           {"command", "not run: no palp in the folder of this program", "", "", "", "", "", "", "", "", "", "", ""});
-      content_.summary += "Commands were not run.";
+      content_.summary += words_("no commands summary");
       return;
     }
     const std::vector<CommandCost> costs = commandCosts(request_, partOf(progress_, 0.55, 0.45), stop_);
-    ReportTable table{"Each once in a process of its own, from its start to its end, one after the other in one folder",
+    ReportTable table{words_("commands caption"),
                       {"command", "stages run", "pictures", "seconds", "CPU [s]", "at most [MB]"},
                       {},
                       {}};
@@ -226,13 +218,13 @@ private:
           {"command", c.command, c.stages, "", "", "", c.pictures, "", c.seconds, c.cpu_s, "", c.peak_MB, c.failed});
       failed += c.failed.empty() ? 0 : 1;
     }
-    say("Memory at most: the kernel's own high-water mark of the process (VmHWM), read every 2 ms. sensor.json is this "
-        "report's design. listen runs for the requested 2 s. Not run here: palp report itself, whose pages "
-        "end with the time that each took.");
+    add(words_("commands"));
     content_.parts.emplace_back(std::move(table));
-    content_.summary += std::to_string(costs.size()) + " commands, " + std::to_string(failed) + " of them failed.";
+    content_.summary +=
+        words_("commands summary", {{"commands", std::to_string(costs.size())}, {"failed", std::to_string(failed)}});
   }
 
+  const ReportText words_{"scenes"};
   const ReportRequest& request_;
   ReportProgress progress_;
   std::stop_token stop_;
