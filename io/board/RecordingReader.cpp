@@ -4,6 +4,7 @@
 #include "io/board/recording/RecordingEntries.h"
 #include "io/board/recording/RecordingHead.h"
 #include "model/base/Error.h"
+#include "model/base/GotExpected.h"
 
 #include <cerrno>
 #include <cstring>
@@ -81,13 +82,13 @@ void RecordingReader::readHead() {
   constexpr std::size_t kStart = kRecordingMagic.size() + 4;
   std::span<const std::uint8_t> start = ahead(kStart);
   if (start.size() < kStart || std::memcmp(start.data(), kRecordingMagic.data(), kRecordingMagic.size()) != 0)
-    throw Error(name_ + ": is no recording of a board; it must begin with " + std::string(kRecordingMagic));
+    throw Error(name_ + ": not a recording of a board: it must begin with " + std::string(kRecordingMagic));
   const std::size_t length = littleEndian<4>(start, kRecordingMagic.size());
   if (length > kLongestRecordingHead)
-    throw Error(name_ + ": the head is " + std::to_string(length) + " bytes long; allowed is up to " +
-                std::to_string(kLongestRecordingHead));
+    throw Error(name_ + ": head: " +
+                gotExpected(std::to_string(length) + " bytes", "up to " + std::to_string(kLongestRecordingHead)));
   start = ahead(kStart + length);
-  if (start.size() < kStart + length) throw Error(name_ + ": is cut off within its head");
+  if (start.size() < kStart + length) throw Error(name_ + ": is cut off in its head");
   head_ = parseRecordingHead({reinterpret_cast<const char*>(start.data()) + kStart, length}, name_);
   pass(kStart + length);
 }

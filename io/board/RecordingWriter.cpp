@@ -146,7 +146,7 @@ void RecordingWriter::fail(const std::string& why) {
 }
 
 std::string RecordingWriter::inWords(const std::string& why) const {
-  return path_.string() + ": cannot be written any more: " + why;
+  return path_.string() + ": can no longer be written: " + why;
 }
 
 std::uint64_t RecordingWriter::reports() const {

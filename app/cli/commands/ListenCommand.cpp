@@ -123,7 +123,7 @@ void warnOfStatus(Listening& all, const LiveStatus& status) {
   for (const std::string& failure : all.senders.failures()) warnOnce(all.session, failure);
 }
 
-/// The first force tells whether a recording is of a simulated board, and what its deviation holds.
+/// From the first force: whether a recording is of a simulated board, and what its deviation includes.
 void judgeDeviation(Listening& all, const LiveFrame& live) {
   if (!all.decoder || !live.forces.valid || all.tally.forces > 0) return;
   if ((live.frame.flags & ReadingFlag::Simulated) != 0) all.sensor.simulated = true;

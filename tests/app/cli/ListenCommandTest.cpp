@@ -89,7 +89,7 @@ TEST(ListenCommand, RefusesWhatCannotBe) {
   refuses({"--simulate", "--replay", "x"}, "exclude each other");
   refuses({"--simulate", "--check", "--record", "x"}, "records nothing");
   refuses({"--replay", "/nonexistent"}, "/nonexistent");
-  refuses({"--replay", samplesFile()}, "no recording");
+  refuses({"--replay", samplesFile()}, "not a recording");
   refuses({"--simulate", "--rate", "0"}, "--rate");
   refuses({"--simulate", "--noise", "x"}, "--noise");
   refuses({"--simulate", "--open-row", "10"}, "row-wire: got 10, expected 0 to 9");

@@ -88,7 +88,7 @@ std::string networkOfAnotherDesign(const palp::TemporaryFolder& folder) {
 
 TEST(ListenTruth, ANetworkOfAnotherDesignIsWarnedOf) {
   const palp::TemporaryFolder folder;
-  const std::string words = "the network was trained for another design: its error is not known";
+  const std::string words = "the network was trained for another design: its error is unknown";
   const std::vector<std::string> other{
       "--simulate", "--rate", "8000", "--frames", "20", "--network", networkOfAnotherDesign(folder)};
   const Outcome outcome = listen(other);
@@ -124,7 +124,7 @@ TEST(ListenTruth, AnUncalibratedNetworkIsWarnedOf) {
   const std::string simulated = folder / "simulated.palprec", real = folder / "real.palprec";
   ASSERT_EQ(listen({"--simulate", "--rate", "8000", "--frames", "30", "--record", simulated}).exit, 0);
   copyAsOfABoard(simulated, real);
-  const std::string words = "the network is not calibrated: the deviation holds noise and training error only";
+  const std::string words = "the network is not calibrated: the deviation includes noise and training error only";
   const auto replayed = [](const std::string& file) {
     return listen(
         {"--replay", file, "--speed", "0", "--network", PALP_SOURCE_DIR "/resources/board/paper-network.json"});

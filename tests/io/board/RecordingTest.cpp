@@ -170,7 +170,7 @@ TEST(Recording, RefusesWhatIsNone) {
   put(folder / "text", "hello, this is no recording at all");
   put(folder / "long", std::string("PALPREC1\xff\xff\xff\x7f") + std::string(100, ' '));
   put(folder / "json", std::string("PALPREC1\x02\0\0\0{}", 14));
-  EXPECT_NE(refusal([&] { RecordingReader(folder / "text"); }).find("no recording"), std::string::npos);
+  EXPECT_NE(refusal([&] { RecordingReader(folder / "text"); }).find("not a recording"), std::string::npos);
   EXPECT_NE(refusal([&] { RecordingReader(folder / "long"); }).find("head"), std::string::npos);
   EXPECT_NE(refusal([&] { RecordingReader(folder / "json"); }).find("palp_recording"), std::string::npos);
   EXPECT_NE(refusal([&] { RecordingReader(folder / "none"); }).find("cannot be read"), std::string::npos);
@@ -402,7 +402,7 @@ TEST(Recording, AnErrorInTheWritersThreadEndsTheRecordingAndNotTheProgram) {
   });
   for (const Bytes& report : reportsOf(board, 5)) writer.append(Kind::Raw, 100, report);
   writer.finish();
-  EXPECT_EQ(writer.failure(), (folder / "a.palprec").string() + ": cannot be written any more: std::bad_alloc");
+  EXPECT_EQ(writer.failure(), (folder / "a.palprec").string() + ": can no longer be written: std::bad_alloc");
   EXPECT_EQ(writer.reports(), 0U);
   EXPECT_EQ(writer.dropped(), 5U);
 }
