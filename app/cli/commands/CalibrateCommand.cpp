@@ -191,7 +191,7 @@ void addCalibrate(Cli& cli) {
       "calibrate", "Refines a network with labelled frames of a board, or fits a design to a board at rest.",
       "palp calibrate network.json frames.csv -o better.json",
       [arguments](Session& session) { return run(*arguments, session); });
-  command.option("network", arguments->network, "FILE", 
+  command.option("network", arguments->network, "FILE",
                  "network to refine (" + namesOfDecodersWith(&DecoderTraits::canBeCalibrated) + ", one force)");
   command.option("frames", arguments->frames, "FILE", "labelled frames, from palp listen --label ... --append");
   command.group("Fit of a design at rest");

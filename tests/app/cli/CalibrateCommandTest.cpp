@@ -67,8 +67,7 @@ TEST_F(CalibrateAtRest, SaysThatABoardReadsOtherwiseThanTheDesign) {
   record(restingDesign(palp::Readout::Floating));
   outcome = calibrate();
   EXPECT_EQ(outcome.exit, 2) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("the board has read-out floating, the design virtual_ground"),
-            std::string::npos)
+  EXPECT_NE(outcome.errors.find("the board has read-out floating, the design virtual_ground"), std::string::npos)
       << outcome.errors;
 }
 
