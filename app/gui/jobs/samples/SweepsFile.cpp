@@ -150,7 +150,7 @@ void parseSweeps(const QByteArray& text, const QString& file, NetworkResults& re
   formatVersion(root, kVersionKey, kVersion);
   const QByteArray of = QByteArray::fromStdString(root.at("samples").asJson());
   if (QJsonDocument::fromJson(of).object() != samplesJson(*results.samples))
-    throw Error(name + ": its sweep and comparison are of other samples than those beside it; they are not shown");
+    throw Error(name + ": its sweep and comparison belong to other samples than the project's; they are not shown");
   NetworkResults found;
   if (root.has("sweep")) {
     const JsonPlace place = root.at("sweep");
