@@ -75,7 +75,7 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   add(row, bound->withPriorPercent);
   add(row, {});
   row << QString() << QString() << QString()
-      << QObject::tr("Cramer-Rao, loaded area known, with prior: the best linear estimate; a method that knows the "
+      << QObject::tr("Cramer-Rao, loaded area known, with prior: the best linear estimate; a method that uses the "
                      "range's limits can be up to 5 % better, and %2 test samples add a scatter of %1 %")
              .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
              .arg(testSamples);
