@@ -1,6 +1,5 @@
 #include "app/gui/live/LiveNews.h"
 
-#include "app/gui/network/NetworkTables.h"
 #include "io/board/HostClock.h"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ QString networkWords(const LiveHost& host) {
           ? QObject::tr("all row-wires")
           : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
   return QObject::tr("%1: %2, %3, trained for a noise of %4 ppm")
-      .arg(host.networkName(), inWords(decoder->kind), rows)
+      .arg(host.networkName(), traits(decoder->kind).description, rows)
       .arg(1e6 * decoder->noise, 0, 'g', 3);
 }
 
