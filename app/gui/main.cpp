@@ -42,14 +42,14 @@ palp::MeshOptions meshOf(const QString& size_mm, const QString& mapped) {
   bool good = true;
   if (!size_mm.isEmpty()) mesh.meshSize_mm = size_mm.toDouble(&good);
   if (!good || (mesh.meshSize_mm && !(*mesh.meshSize_mm > 0 && std::isfinite(*mesh.meshSize_mm))))
-    throw palp::Error("--mesh-size " + size_mm.toStdString() + ": allowed is a finite number above 0");
+    throw palp::Error("--mesh-size " + size_mm.toStdString() + ": expected a finite number above 0");
   if (mapped.isEmpty()) return mesh;
   const QStringList counts = mapped.split('x');
   std::array<int, 3> elements{};
   for (std::size_t k = 0; k < 3; ++k) elements[k] = counts.value(static_cast<int>(k)).toInt();
   if (counts.size() != 3 || *std::min_element(elements.begin(), elements.end()) < 1 || mesh.meshSize_mm)
     throw palp::Error("--mapped " + mapped.toStdString() +
-                      ": allowed is three numbers of elements, as 10x10x5, and no --mesh-size beside it");
+                      ": expected three numbers of elements, such as 10x10x5, without --mesh-size");
   mesh.mapped = elements;
   return mesh;
 }
@@ -59,11 +59,11 @@ Wish parse(const QApplication& application) {
   parser.setApplicationDescription("Desktop workbench for three-axis tactile sensors of conductive rubber.\n"
                                    "Example: palp-studio --scene deformation --snapshot block.png sensor.json");
   parser.addHelpOption();
-  const QCommandLineOption scene("scene", "Open on this scene.", "NAME");
-  const QCommandLineOption snapshot("snapshot", "Write a picture of the window when it is complete, and end.", "FILE");
-  const QCommandLineOption theme("theme", "light, dark or contrast.", "NAME");
+  const QCommandLineOption scene("scene", "Open this scene.", "NAME");
+  const QCommandLineOption snapshot("snapshot", "Write a picture of the complete window and exit.", "FILE");
+  const QCommandLineOption theme("theme", "Colours: light, dark or contrast.", "NAME");
   const QCommandLineOption costs(
-      "costs", "Go through the scenes (or the one of --scene), print what each step costs as JSON, and end.");
+      "costs", "Go through the scenes (or that of --scene), print the cost of each step as JSON and exit.");
   const QCommandLineOption size("mesh-size", "Size of the tetrahedra in the bulk [mm].", "MM");
   const QCommandLineOption mapped("mapped", "Mapped hexahedra.", "NxNxN");
   const QCommandLineOption version({"v", "version"}, "Version, commit and libraries.");
@@ -76,7 +76,7 @@ Wish parse(const QApplication& application) {
   }
   if (parser.positionalArguments().size() > 1)
     throw palp::Error("design.json: " + std::to_string(parser.positionalArguments().size()) +
-                      " files were given; allowed is one");
+                      " files given, expected one");
   return {parser.value(scene), parser.value(snapshot),
           parser.value(theme), parser.positionalArguments().value(0),
           parser.isSet(costs), meshOf(parser.value(size), parser.value(mapped))};
@@ -108,7 +108,7 @@ int run(palp::Application& application) {
   });
   window.showScene(QString::fromStdString(project.view.scene));
   if (!wish.scene.isEmpty() && !window.showScene(wish.scene))
-    throw palp::Error("--scene " + wish.scene.toStdString() + ": allowed is " +
+    throw palp::Error("--scene " + wish.scene.toStdString() + ": expected " +
                       window.sceneNames().join(", ").toStdString());
   if (wish.costs) {
     palp::printSceneCosts(window, workbench, wish.scene);
@@ -117,7 +117,7 @@ int run(palp::Application& application) {
   if (!unattended) palp::fitToScreen(window, window.screen()->availableGeometry());
   window.show();
   log.takeQtMessages();
-  log.add("palp-studio " + QString::fromStdString(palp::version()) + " starts");
+  log.add("palp-studio " + QString::fromStdString(palp::version()) + " started");
   QObject::connect(&application, &palp::Application::faulted, &log, &palp::LogFile::add);
   if (!wish.snapshot.isEmpty()) {
     palp::snapshotWhenComplete(window, workbench, wish.snapshot);
@@ -152,8 +152,8 @@ bool canStart(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused in words, as a full disk is
   if (!canStart(argc, argv)) {
-    std::cerr << "palp-studio: no display (DISPLAY and WAYLAND_DISPLAY are not set); --snapshot FILE makes a picture "
-                 "without one\n";
+    std::cerr << "palp-studio: no display (DISPLAY and WAYLAND_DISPLAY are not set); use --snapshot FILE to write a "
+                 "picture without one\n";
     return 2;
   }
   palp::Application application(argc, argv);

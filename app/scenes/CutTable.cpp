@@ -20,8 +20,8 @@ std::string quantityHead(const DeformationOptions& options) {
   const std::string unit = quantityUnit(options.quantity);
   return "\"" + quantityName(options.quantity) +
          (!options.lessKept     ? ""
-          : options.lessUniform ? ", less the force uniform"
-                                : ", less the kept design's") +
+          : options.lessUniform ? ", minus uniform load"
+                                : ", minus reference design") +
          (unit.empty() ? "" : " [" + unit + "]") + "\"";
 }
 

@@ -37,11 +37,11 @@ Picture pictureOfBgra(std::span<const std::uint8_t> bgra, int width, int height)
 void requireDrawable(int width, int height) {
   if (width < 1 || height < 1 || width > 16384 || height > 16384)
     throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels: allowed is 1 to 16384 each way");
+                " pixels: expected 1 to 16384 each way");
 }
 
 void writePng(const Picture& picture, const std::filesystem::path& path) {
-  if (picture.empty()) throw Error(path.string() + ": the picture is empty; allowed is at least 1 x 1 pixel");
+  if (picture.empty()) throw Error(path.string() + ": the picture is empty; expected at least 1 x 1 pixel");
   vtkNew<vtkImageData> image;
   fillFromTop(*image, picture);
   vtkNew<vtkPNGWriter> writer;

@@ -42,13 +42,13 @@ QString boundTable(const QString& nameA, const BoundSummary& a, const QString& n
     return "<tr><td>" + name + "&nbsp;&nbsp;</td><td>" + boundPercents(one) + "&nbsp;&nbsp;</td><td><b>" +
            boundPercents(other) + "</b></td></tr>";
   };
-  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz in % of the force range, area known, root mean square over the "
-                     "areas:") +
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz in % of the force range, loaded area known, root mean square "
+                     "over the areas:") +
          "<table><tr><td></td><td>" + nameA + "</td><td><b>" + nameB + "</b></td></tr>" +
          line(QObject::tr("middle row-wire"), a.centreWithPrior, b.centreWithPrior) +
-         line(QObject::tr("the same without prior"), a.centreWithoutPrior, b.centreWithoutPrior) +
+         line(QObject::tr("without prior"), a.centreWithoutPrior, b.centreWithoutPrior) +
          line(QObject::tr("all row-wires"), a.allWithPrior, b.allWithPrior) +
-         line(QObject::tr("the same without prior"), a.allWithoutPrior, b.allWithoutPrior) + "</table>";
+         line(QObject::tr("without prior"), a.allWithoutPrior, b.allWithoutPrior) + "</table>";
 }
 
 } // namespace palp

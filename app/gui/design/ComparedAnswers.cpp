@@ -46,18 +46,20 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const SensorDe
 QString answerWords(const Answer& earlier, const Answer& now, const DesignsCompared& compared) {
   for (const auto& [answer, name] :
        {std::pair{&earlier, QObject::tr("The earlier design")}, std::pair{&now, QObject::tr("This design")}})
-    if (!answer->problem.isEmpty()) return QObject::tr("%1 cannot bear the load: %2.").arg(name, answer->problem);
+    if (!answer->problem.isEmpty()) return QObject::tr("%1 cannot carry the load: %2.").arg(name, answer->problem);
   QString words = QObject::tr("Under the load on %1: largest displacement %2 mm before, <b>%3 mm</b> now.")
                       .arg(pressedWords(compared.load), QString::number(earlier.largest_mm, 'f', 4),
                            QString::number(now.largest_mm, 'f', 4));
   if (const QString match = matchWords(compared.load, compared.now, compared.earlier); !match.isEmpty())
-    words +=
-        QObject::tr("<br>Blocks of two sizes, %1: the same share of the sides, the same radius and force.").arg(match);
+    words += QObject::tr(
+                 "<br>The blocks differ in size, %1: at the same share of the sides, with the same radius and force.")
+                 .arg(match);
   if (earlier.upper_mm->cols() == now.upper_mm->cols())
-    words += QObject::tr("<br>How the upper electrodes are displaced differs by up to %1 mm.")
+    words += QObject::tr("<br>The displacements of the upper electrodes differ by up to %1 mm.")
                  .arg((*now.upper_mm - *earlier.upper_mm).colwise().norm().maxCoeff(), 0, 'f', 4);
   if (earlier.change.rows() != now.change.rows() || earlier.change.cols() != now.change.cols())
-    words += QObject::tr("<br>They have other numbers of wires: their resistances are not compared cell by cell.");
+    words += QObject::tr(
+        "<br>The designs have different numbers of wires, so their resistances are not compared cell by cell.");
   return words;
 }
 

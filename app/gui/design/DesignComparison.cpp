@@ -58,7 +58,7 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
     if (cancelled) {
       shown_.reset();
       showCompared();
-      if (!shown_) words_->setText(tr("Stopped; nothing was compared."));
+      if (!shown_) words_->setText(tr("Cancelled; nothing was compared."));
     }
     displayProject();
   });
@@ -81,32 +81,32 @@ void DesignComparison::build() {
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(0, 0, 0, 0);
   auto* with = new QHBoxLayout;
-  with->addWidget(new QLabel(tr("This design with")));
+  with->addWidget(new QLabel(tr("Compare this design with")));
   list_ = new QComboBox;
   list_->setObjectName("compareWith");
   list_->setAccessibleName(tr("Design to compare with"));
-  list_->setToolTip(tr("The designs that there were, each by the change that led away from it, and the one that was "
-                       "kept"));
+  list_->setToolTip(tr("Earlier designs, each named by the edit that replaced it, and the reference design"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   with->addWidget(list_, 1);
   column->addLayout(with);
   auto* buttons = new QHBoxLayout;
   compare_ = new QPushButton(tr("Compare"));
   compare_->setObjectName("compareDesigns");
-  compare_->setToolTip(tr("Solves both designs under the load and bounds the errors of both; Esc stops it"));
+  compare_->setToolTip(tr("Solves both designs under the load and computes the error bounds of both; Esc cancels"));
   fields_ = new QPushButton(tr("Show the difference of the fields"));
   fields_->setObjectName("keptFields");
-  fields_->setToolTip(tr("On the Deformation scene: this design less the chosen one, in the colours of the block; the "
-                         "chosen one is kept for it"));
+  fields_->setToolTip(tr("Colours the block on the Deformation scene by this design minus the selected one, which "
+                         "becomes the reference design"));
   for (QPushButton* button : {compare_, fields_}) buttons->addWidget(button);
   column->addLayout(buttons);
   auto* more = new QHBoxLayout;
-  back_ = new QPushButton(tr("Go back to it"));
+  back_ = new QPushButton(tr("Restore"));
   back_->setObjectName("takeKept");
-  back_->setToolTip(tr("Makes the chosen design the design again; can be undone"));
-  keep_ = new QPushButton(tr("Keep this design"));
+  back_->setToolTip(tr("Makes the selected design the current design again; this can be undone"));
+  keep_ = new QPushButton(tr("Set as reference"));
   keep_->setObjectName("keepDesign");
-  keep_->setToolTip(tr("Remembers the design as it is now, to compare later ones with it; the project keeps it"));
+  keep_->setToolTip(tr(
+      "Stores the current design as the reference that later designs are compared with; it is saved with the project"));
   for (QPushButton* button : {back_, keep_}) more->addWidget(button);
   column->addLayout(more);
   stale_ = new QLabel;
@@ -147,11 +147,12 @@ void DesignComparison::listChoices() {
   };
   const std::vector<EarlierDesign> earlier = workbench_.earlierDesigns();
   for (const EarlierDesign& each : earlier)
-    offer((each.undone ? tr("%1, undone: %2") : tr("%1, before: %2")).arg(each.when.toString("HH:mm"), each.change) +
-              (each.design == project.kept ? tr(" (kept)") : QString()),
+    offer((each.undone ? tr("%1, undone change: %2") : tr("%1, before change: %2"))
+                  .arg(each.when.toString("HH:mm"), each.change) +
+              (each.design == project.kept ? tr(" (reference)") : QString()),
           each.design);
-  if (project.kept) offer(tr("the kept design (%1)").arg(blockWords(*project.kept)), *project.kept);
-  for (const SensorDesign& each : keptBefore_) offer(tr("kept before (%1)").arg(blockWords(each)), each);
+  if (project.kept) offer(tr("the reference design (%1)").arg(blockWords(*project.kept)), *project.kept);
+  for (const SensorDesign& each : keptBefore_) offer(tr("former reference (%1)").arg(blockWords(each)), each);
   const auto& compared = project.studies.compared;
   if (compared) offer(QString::fromStdString(compared->name), compared->earlier);
   const QSignalBlocker quiet(list_);
@@ -179,7 +180,7 @@ void DesignComparison::keep() {
   if (next.kept && next.kept != next.design) keptBefore_.insert(keptBefore_.begin(), *next.kept);
   next.kept = asked_ = next.design;
   workbench_.closeEntry();
-  workbench_.edit(tr("Keep this design"), next);
+  workbench_.edit(tr("Set the reference design"), next);
 }
 
 void DesignComparison::goBack() {
@@ -191,7 +192,7 @@ void DesignComparison::goBack() {
   next.path = pathKept(next.path, workbench_.project().load, next.load);
   asked_.reset();
   workbench_.closeEntry();
-  workbench_.edit(tr("Go back to an earlier design"), next);
+  workbench_.edit(tr("Restore an earlier design"), next);
 }
 
 void DesignComparison::showFields() {
@@ -212,14 +213,16 @@ void DesignComparison::displayProject() {
   if (project.studies.compared != shown_ && !runner_.running()) showCompared();
   QString state;
   if (!other)
-    state = project.kept ? tr("This is the kept design: change something to compare.")
-                         : tr("There is no other design yet: change something, and compare it with what was before.");
+    state =
+        project.kept
+            ? tr("This is the reference design: change something to compare.")
+            : tr("There is no earlier design yet: change something, then compare with the design before the change.");
   else if (shown_ && !runner_.running()) {
     const DesignsCompared& of = *shown_;
     if (of.now != project.design || of.earlier != chosen()->design)
-      state = tr("Below are other designs than these: \"Compare\" does it again.");
+      state = tr("Outdated: this comparison belongs to other designs. Press \"Compare\" to update it.");
     else if (of.load != project.load || of.noise != project.view.resistanceNoise)
-      state = tr("Below is another load, or another noise of the resistances: \"Compare\" does it again.");
+      state = tr("Outdated: this comparison belongs to another load or noise. Press \"Compare\" to update it.");
   }
   stale_->setText(state);
   stale_->setVisible(!state.isEmpty());
@@ -237,7 +240,7 @@ void DesignComparison::showCompared() {
                             QString::fromStdString(shown_->words)
                       : QString());
   difference_->setVisible(map);
-  if (map) difference_->setHeatmap(heatmapLess(differenceOf(*shown_), tr("the earlier design's").toStdString()));
+  if (map) difference_->setHeatmap(heatmapLess(differenceOf(*shown_), tr("the earlier design").toStdString()));
 }
 
 void DesignComparison::compare() {
@@ -249,7 +252,7 @@ void DesignComparison::compare() {
   compared.load = project.load;
   compared.noise = project.view.resistanceNoise;
   difference_->hide();
-  words_->setText(tr("Being computed..."));
+  words_->setText(tr("Computing..."));
   runner_.start(
       tr("Comparing two designs"),
       [this, compared, mesh = project.mesh](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {

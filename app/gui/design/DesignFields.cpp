@@ -21,7 +21,7 @@ QString shortText(double value) {
 
 QString setNumber(double& target, const QString& words) {
   const auto value = typedNumber(words);
-  if (!value) return QObject::tr("\"%1\" is no number; write it with a point, as 0.5").arg(words);
+  if (!value) return QObject::tr("\"%1\" is not a number; use a decimal point, for example 0.5").arg(words);
   target = *value;
   return {};
 }
@@ -29,7 +29,7 @@ QString setNumber(double& target, const QString& words) {
 QString setCount(int& target, const QString& words) {
   bool good = false;
   const int value = words.trimmed().toInt(&good);
-  if (!good) return QObject::tr("\"%1\" is no whole number").arg(words);
+  if (!good) return QObject::tr("\"%1\" is not a whole number").arg(words);
   target = value;
   return {};
 }
@@ -37,11 +37,12 @@ QString setCount(int& target, const QString& words) {
 /// Goes on from the last two values in equal steps until `last`, or says what is wrong.
 QString goOn(std::vector<double>& values, double last) {
   constexpr double kMost = 1000;
-  if (values.size() < 2) return QObject::tr("before \"...\" stand two numbers, as in 0.5, 1.5, ..., 29.5");
+  if (values.size() < 2)
+    return QObject::tr("\"...\" must follow at least two numbers, for example 0.5, 1.5, ..., 29.5");
   const double start = values.back(), step = start - values[values.size() - 2];
   const double steps = (last - start) / step;
   if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
-    return QObject::tr("%1 is not reached from %2 in 1 to 1000 equal steps of %3")
+    return QObject::tr("%1 cannot be reached from %2 in 1 to 1000 equal steps of %3")
         .arg(shortText(last), shortText(start), shortText(step));
   for (int k = 1; k < std::lround(steps); ++k) // 1e-9 mm: 7.333333332 and not ...20000005
     values.push_back(std::round((start + k * step) * 1e9) / 1e9);
@@ -65,8 +66,8 @@ QString setList(std::vector<double>& target, const QString& words) {
       return wrong;
     evenly = false;
   }
-  if (evenly) return QObject::tr("after \"...\" stands the last number, as in 0.5, 1.5, ..., 29.5");
-  if (values.empty()) return QObject::tr("the list is empty; write numbers with commas between them");
+  if (evenly) return QObject::tr("\"...\" must be followed by the last number, for example 0.5, 1.5, ..., 29.5");
+  if (values.empty()) return QObject::tr("the list is empty; enter numbers separated by commas");
   target = values;
   return {};
 }
@@ -162,41 +163,47 @@ void addBody(Fields& fields) {
   for (int d = 0; d < 3; ++d)
     fields.push_back(number(QString("block_mm[%1]").arg(d), tr("Block"),
                             tr("size along %1").arg(axes()[static_cast<std::size_t>(d)]), "mm",
-                            tr("above 0; the bottom face is fixed"), [d](D& s) -> double& { return s.block_mm[d]; }));
-  fields.push_back(number("material.c10_MPa", tr("Rubber"), "c10", "MPa", tr("Mooney-Rivlin constant, above 0"),
+                            tr("Length of the block's side, above 0; the bottom face is fixed"),
+                            [d](D& s) -> double& { return s.block_mm[d]; }));
+  fields.push_back(number("material.c10_MPa", tr("Rubber"), "c10", "MPa",
+                          tr("Mooney-Rivlin constant C10, above 0. Other laws (Yeoh, Ogden) and Shore hardness are not "
+                             "available; Help shows how to estimate C10 and C01 from Shore A."),
                           [](D& s) -> double& { return s.material.c10_MPa; }));
   fields.push_back(number("material.c01_MPa", tr("Rubber"), "c01", "MPa",
-                          tr("Mooney-Rivlin constant; c10 + c01 above 0"),
+                          tr("Mooney-Rivlin constant C01; C10 + C01 must be above 0"),
                           [](D& s) -> double& { return s.material.c01_MPa; }));
-  fields.push_back(number("material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
-                          tr("0 to 0.5, in ANSYS's sense; 0.5 is incompressible"),
-                          [](D& s) -> double& { return s.material.poissonRatio; }));
-  fields.push_back(number("material.density_t_per_mm3", tr("Rubber"), tr("density"), "t/mm3", tr("above 0"),
+  fields.push_back(number(
+      "material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
+      tr("0 to 0.5; it sets the compressibility d = (1 - 2 nu) / (C10 + C01) as in ANSYS, and 0.5 is incompressible"),
+      [](D& s) -> double& { return s.material.poissonRatio; }));
+  fields.push_back(number("material.density_t_per_mm3", tr("Rubber"), tr("density"), "t/mm3",
+                          tr("Density of the rubber, above 0"),
                           [](D& s) -> double& { return s.material.density_t_per_mm3; }));
-  fields.push_back(count("areas.columns", tr("Load areas"), tr("along x"), tr("1 to 50"),
+  fields.push_back(count("areas.columns", tr("Load areas"), tr("along x"), tr("Number of load areas along x, 1 to 50"),
                          [](D& s) -> int& { return s.areas.columns; }));
-  fields.push_back(
-      count("areas.rows", tr("Load areas"), tr("along y"), tr("1 to 50"), [](D& s) -> int& { return s.areas.rows; }));
+  fields.push_back(count("areas.rows", tr("Load areas"), tr("along y"), tr("Number of load areas along y, 1 to 50"),
+                         [](D& s) -> int& { return s.areas.rows; }));
 }
 
 void addElectrodeLayers(Fields& fields) {
   fields.push_back(list("upper_layer.row_wire_y_mm", tr("Upper layer"), tr("row-wires at y"),
-                        tr("one number a row-wire; evenly spaced ones as 1.5, 4.5, ..., 28.5"),
+                        tr("One number per row-wire; evenly spaced wires as 1.5, 4.5, ..., 28.5"),
                         [](D& s) -> std::vector<double>& { return s.upper.wire_mm; }));
   fields.push_back(lists("upper_layer.electrode_x_mm", tr("Upper layer"), tr("electrodes at x"),
-                         tr("one list for all row-wires, or one a row-wire with ; between them"),
+                         tr("One list for all row-wires, or one list per row-wire separated by ;"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.along_mm; }));
   fields.push_back(lists("upper_layer.z_mm", tr("Upper layer"), tr("height z"),
-                         tr("over the bottom of the block; one for all, or one list a row-wire"),
+                         tr("Height above the bottom of the block: one number for all, or one list per row-wire"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.upper.z_mm; }));
   fields.push_back(list("lower_layer.column_wire_x_mm", tr("Lower layer"), tr("column-wires at x"),
-                        tr("one number a column-wire; evenly spaced ones as 0.5, 1.5, ..., 29.5"),
+                        tr("One number per column-wire; evenly spaced wires as 0.5, 1.5, ..., 29.5"),
                         [](D& s) -> std::vector<double>& { return s.lower.wire_mm; }));
   fields.push_back(lists("lower_layer.electrode_y_mm", tr("Lower layer"), tr("electrodes at y"),
-                         tr("one list for all column-wires, or one a column-wire with ; between them"),
+                         tr("One list for all column-wires, or one list per column-wire separated by ;"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.along_mm; }));
   fields.push_back(lists("lower_layer.z_mm", tr("Lower layer"), tr("height z"),
-                         tr("over the bottom of the block, below the upper layer"),
+                         tr("Height above the bottom of the block, below the upper layer: one number for all, or one "
+                            "list per column-wire"),
                          [](D& s) -> std::vector<std::vector<double>>& { return s.lower.z_mm; }));
 }
 
@@ -228,23 +235,21 @@ QString setChoice(std::size_t& target, const std::vector<DesignChoice>& choices,
       target = k;
       return {};
     }
-  return QObject::tr("\"%1\" is none of the choices").arg(words);
+  return QObject::tr("\"%1\" is not one of the choices").arg(words);
 }
 
 DesignField law() {
   // In the order of ResistanceLaw's alternatives.
   const std::vector<DesignChoice> choices{
-      {tr("Eq. (1), independent pairs"), tr("The paper's law: every pair of an upper and a lower electrode is a "
-                                            "resistor g x distance of its own and knows "
-                                            "no other wire")},
+      {tr("Eq. (1), independent pairs"), tr("The paper's law: each pair of an upper and a lower electrode is a "
+                                            "resistor g x distance, independent of all other wires")},
       {tr("conduction field"),
-       tr("One field in the rubber joins all electrodes, as in a block that conducts everywhere; "
-          "what is read depends on the read-out circuit")}};
+       tr("One conduction field in the rubber connects all electrodes; the readings depend on the read-out circuit")}};
   return {"resistance.law",
           resistanceGroup(),
           tr("law"),
           "",
-          tr("How the places of the electrodes become resistances"),
+          tr("How resistances follow from the positions of the electrodes"),
           [choices](const SensorDesign& design) { return choices[design.resistance.index()].words; },
           [choices](SensorDesign& design, const QString& words) {
             std::size_t index = 0;
@@ -259,22 +264,19 @@ DesignField law() {
 DesignField readout() {
   // In the order of Readout.
   const std::vector<DesignChoice> choices{
-      {tr("floating"),
-       tr("One row-wire is driven against one column-wire; all other wires are left open. The current also "
-          "takes the other wires' metal as a short cut through the block")},
-      {tr("virtual ground"),
-       tr("One row-wire is driven; all column-wires and all other row-wires are held at 0 V, and the "
-          "current of each column-wire is read, as into a transimpedance amplifier")},
-      {tr("rows grounded"), tr("One row-wire is driven, all other row-wires are held at 0 V; the current of one "
-                               "column-wire at 0 V is read while the others are left open: a plain multiplexer")},
-      {tr("others at half"),
-       tr("One row-wire is driven and the current of one column-wire at 0 V is read, while all other "
-          "wires are held at half of the drive voltage")}};
+      {tr("floating"), tr("One row-wire is driven against one column-wire; all other wires float. The current also "
+                          "takes the metal of other wires as a short cut through the block.")},
+      {tr("virtual ground"), tr("One row-wire is driven; all column-wires and all other row-wires are held at 0 V, and "
+                                "the current of each column-wire is read, as with a transimpedance amplifier.")},
+      {tr("rows grounded"), tr("One row-wire is driven and all other row-wires are held at 0 V; the current of one "
+                               "column-wire at 0 V is read while the others float, as with a plain multiplexer.")},
+      {tr("others at half"), tr("One row-wire is driven and the current of one column-wire at 0 V is read, while all "
+                                "other wires are held at half of the drive voltage.")}};
   return {"resistance.readout",
           resistanceGroup(),
           tr("read-out"),
           "",
-          tr("Which wires carry which voltage while a row-wire and a column-wire are read"),
+          tr("Voltages of the wires while one row-wire and one column-wire are read"),
           [choices](const SensorDesign& design) {
             const FieldLaw* field = design.field();
             return field != nullptr ? choices[static_cast<std::size_t>(field->readout)].words : QString();
@@ -295,20 +297,19 @@ DesignField readout() {
 void addResistance(Fields& fields) {
   fields.push_back(law());
   fields.push_back(ofLaw("rate_ohm_per_mm", tr("rate g"), "ohm/mm",
-                         tr("above 0; a pair of electrodes has R = g x distance"), &PairsLaw::rate_ohm_per_mm));
+                         tr("Above 0; a pair of electrodes has R = g x distance"), &PairsLaw::rate_ohm_per_mm));
   fields.push_back(ofLaw("resistivity_ohm_mm", tr("resistivity"), "ohm mm",
-                         tr("above 0; of the rubber, the same in all directions, also where it is deformed"),
+                         tr("Resistivity of the rubber, above 0; isotropic, also where the rubber is deformed"),
                          &FieldLaw::resistivity_ohm_mm));
-  fields.push_back(
-      ofLaw("electrode_radius_mm", tr("electrode radius"), "mm",
-            tr("above 0 and below half of the nearest gap; an electrode is taken as a small sphere, a good "
-               "model up to 0.35 of the gap"),
-            &FieldLaw::electrodeRadius_mm));
+  fields.push_back(ofLaw("electrode_radius_mm", tr("electrode radius"), "mm",
+                         tr("Above 0 and below half of the smallest gap between electrodes. An electrode is modelled "
+                            "as a small sphere, which is accurate up to 0.35 of the gap."),
+                         &FieldLaw::electrodeRadius_mm));
   fields.push_back(ofLaw("contact_ohm_mm2", tr("contact"), "ohm mm2",
-                         tr("0 or more; resistance between an electrode and the rubber times the electrode's surface"),
+                         tr("Contact resistance times the electrode's surface, 0 or more"),
                          &FieldLaw::contact_ohm_mm2));
   fields.push_back(ofLaw("wire_ohm", tr("wire and switch"), "ohm",
-                         tr("0 or more; resistance of a wire and of its switch on the board, outside of the block"),
+                         tr("Resistance of a wire and of its switch on the board, outside of the block, 0 or more"),
                          &FieldLaw::wire_ohm));
   fields.push_back(readout());
 }
@@ -317,10 +318,10 @@ void addForces(Fields& fields) {
   for (int d = 0; d < 3; ++d) {
     const QString& axis = axes()[static_cast<std::size_t>(d)];
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 from").arg(axis), "N",
-                            tr("for samples and for % of range"),
+                            tr("Force range of the samples; errors in % of range refer to it"),
                             [d](D& s) -> double& { return s.forceRange.low_N[d]; }));
     fields.push_back(number("force_range_N." + axis, tr("Force range"), tr("F%1 to").arg(axis), "N",
-                            tr("for samples and for % of range"),
+                            tr("Force range of the samples; errors in % of range refer to it"),
                             [d](D& s) -> double& { return s.forceRange.high_N[d]; }));
   }
 }

@@ -181,20 +181,20 @@ std::vector<JobRunner*> DesignPage::runners() {
 QGroupBox* DesignPage::buildMesh() {
   auto* box = new QGroupBox(tr("Mesh"));
   auto* column = new QVBoxLayout(box);
-  showMesh_ = new QCheckBox(tr("make and show the mesh"));
+  showMesh_ = new QCheckBox(tr("Make and show the mesh"));
   showMesh_->setObjectName("showMesh");
   column->addWidget(showMesh_);
   auto* sizeRow = new QHBoxLayout;
-  automaticSize_ = new QCheckBox(tr("standard size"));
+  automaticSize_ = new QCheckBox(tr("Standard size"));
   automaticSize_->setObjectName("automaticSize");
-  automaticSize_->setToolTip(tr("Graded for about 1 % in the electrode displacements"));
+  automaticSize_->setToolTip(tr("Graded mesh for an error of about 1 % in the electrode displacements"));
   size_ = new NumberBox;
   size_->setObjectName("meshSize");
   size_->setRange(0.5, 100);
   size_->setValue(3);
   size_->setSuffix(tr(" mm"));
   size_->setKeyboardTracking(false);
-  size_->setToolTip(tr("Size of the tetrahedra in the bulk; the grading scales with it"));
+  size_->setToolTip(tr("Size of the tetrahedra in the bulk; the graded region scales with it"));
   sizeRow->addWidget(automaticSize_);
   sizeRow->addWidget(size_);
   column->addLayout(sizeRow);
@@ -278,7 +278,7 @@ void DesignPage::displayMesh() {
   const bool meshed = showMesh_->isChecked() && touch.touch().mesh() != nullptr;
   quality_->setVisible(meshed && measured_);
   if (!meshed) {
-    meshWords_->setText(tr("Looking at the design makes no mesh."));
+    meshWords_->setText(tr("No mesh yet."));
     return;
   }
   const Mesh& mesh = *touch.touch().mesh();

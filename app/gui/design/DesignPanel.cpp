@@ -39,7 +39,7 @@ DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
 void DesignPanel::buildPresets() {
   auto* presets = new QComboBox;
   presets->setObjectName("presets");
-  presets->setPlaceholderText(tr("Start from a preset..."));
+  presets->setPlaceholderText(tr("Select a preset..."));
   const std::vector<DesignPreset> all = designPresets();
   for (const DesignPreset& preset : all) {
     presets->addItem(preset.name);
@@ -47,10 +47,16 @@ void DesignPanel::buildPresets() {
   }
   presets->setCurrentIndex(-1);
   layout()->addWidget(presets);
+  auto* limits =
+      new WrappedLabel(tr("One rectangular block of Mooney-Rivlin rubber: no round or domed bodies, no layers, no "
+                          "other laws, no creep (F1, What Palp cannot do)."));
+  limits->setObjectName("designLimits");
+  limits->setProperty("role", "hint");
+  layout()->addWidget(limits);
   connect(presets, &QComboBox::activated, this, [this, presets, all](int k) {
     presets->setCurrentIndex(-1);
     const DesignPreset& preset = all[static_cast<std::size_t>(k)];
-    emit edited(tr("Take the preset: %1").arg(preset.name), preset.design);
+    emit edited(tr("Select the preset: %1").arg(preset.name), preset.design);
   });
 }
 
@@ -80,10 +86,10 @@ void DesignPanel::buildFields() {
 }
 
 void DesignPanel::addWireScaling(QFormLayout& form) {
-  scaleWires_ = new QCheckBox(tr("scale the wires with the block"));
+  scaleWires_ = new QCheckBox(tr("Scale the wires with the block"));
   scaleWires_->setObjectName("scaleWires");
-  scaleWires_->setToolTip(tr("Another size of the block takes both layers of wires and electrodes with it, each in the "
-                             "same share of the block as before; else they stay where they are"));
+  scaleWires_->setToolTip(tr("When on, a change of the block's size moves the wires and electrodes of both layers in "
+                             "proportion. When off, they keep their positions."));
   form.addRow(scaleWires_);
   connect(scaleWires_, &QCheckBox::toggled, this, &DesignPanel::scalingChosen);
 }
@@ -94,12 +100,12 @@ void DesignPanel::displayScaling(bool on) {
 }
 
 void DesignPanel::addFollowing(QFormLayout& form) {
-  follows_ = new QCheckBox(tr("electrodes follow the rubber"));
+  follows_ = new QCheckBox(tr("Electrodes follow the rubber"));
   follows_->setObjectName("follows");
   follows_->setToolTip(
-      tr("The paper holds the lower electrodes still; where they follow, dR changes by more than half"));
+      tr("The paper fixes the lower electrodes. Where they follow the rubber, dR changes by more than half."));
   form.addRow(follows_);
-  connect(follows_, &QCheckBox::toggled, this, [this] { read(tr("Hold or free the lower electrodes")); });
+  connect(follows_, &QCheckBox::toggled, this, [this] { read(tr("Fix or release the lower electrodes")); });
 }
 
 void DesignPanel::display(const SensorDesign& design) {
@@ -160,8 +166,8 @@ void DesignPanel::showDerived(const SensorDesign& design) {
           .arg(number(rubber.shearModulus_MPa()), std::isfinite(kappa) ? number(kappa) + " MPa" : tr("infinite"),
                number(rubber.smallStrainYoung_MPa()), QString::number(rubber.smallStrainPoissonRatio(), 'g', 8));
   if (rubber == paperDesign().material)
-    words += tr("<br><i>The rubber of the paper (F. Wang et al. 2013; Help, About). It also prints E = 2.08e5 "
-                "N/mm2: steel, five orders of magnitude off c10 and c01; it is not used.</i>");
+    words += tr("<br><i>The paper's rubber (F. Wang et al. 2013; see Help, About). The paper also prints E = 2.08e5 "
+                "N/mm2, which is steel and five orders of magnitude above C10 and C01; that value is not used.</i>");
   if (const auto square = whyNotSquare(design)) words += "<br>" + QString::fromStdString(*square);
   derived_->say(words);
 }

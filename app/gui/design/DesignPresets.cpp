@@ -15,14 +15,18 @@ std::vector<DesignPreset> designPresets() {
   fine.areas.rows = 3;
   SensorDesign piezoresistive = paper;
   piezoresistive.pressureLaw = PressureLaw{};
-  return {{QObject::tr("the paper's"),
-           QObject::tr("of F. Wang et al. 2013 (Help, About): 30 x 30 x 5 mm, 10 x 30 wires, six load areas"), paper},
-          {QObject::tr("lower electrodes follow the rubber"),
-           QObject::tr("the paper holds them still; where they follow, dR changes by more than half"), following},
-          {QObject::tr("incompressible rubber"), QObject::tr("the paper's with Poisson's ratio 0.5"), incompressible},
-          {QObject::tr("twelve load areas"), QObject::tr("the paper's block with 4 x 3 areas"), fine},
-          {QObject::tr("resistivity falls with pressure"), QObject::tr("the paper's with the law of Fig. 1"),
-           piezoresistive}};
+  return {
+      {QObject::tr("Paper's sensor"),
+       QObject::tr("Sensor of F. Wang et al. 2013 (see Help, About): 30 x 30 x 5 mm, 10 x 30 wires, six load areas"),
+       paper},
+      {QObject::tr("Lower electrodes follow the rubber"),
+       QObject::tr("The paper fixes the lower electrodes. Where they follow the rubber, dR changes by more than half."),
+       following},
+      {QObject::tr("Incompressible rubber"), QObject::tr("The paper's sensor with a Poisson's ratio of 0.5"),
+       incompressible},
+      {QObject::tr("Twelve load areas"), QObject::tr("The paper's block with 4 x 3 load areas"), fine},
+      {QObject::tr("Resistivity falls with pressure"),
+       QObject::tr("The paper's sensor with the pressure law of its Fig. 1"), piezoresistive}};
 }
 
 } // namespace palp

@@ -71,7 +71,8 @@ void DesignRows::add(const DesignField& field, QFormLayout& form, const std::fun
   widget->setObjectName(field.key);
   widget->setToolTip(field.tip + QString("<br><i>%1</i>").arg(field.key));
   widget->setAccessibleName(field.group + ", " + field.label);
-  row.label = new QLabel(field.unit.isEmpty() ? field.label : field.label + " [" + field.unit + "]");
+  const QString label = field.label.left(1).toUpper() + field.label.mid(1);
+  row.label = new QLabel(field.unit.isEmpty() ? label : label + " [" + field.unit + "]");
   row.label->setBuddy(widget);
   const auto isLong = [](const DesignChoice& choice) { return choice.words.size() > kLongChoice; };
   if (std::any_of(field.choices.begin(), field.choices.end(), isLong)) { // beside its label it would be cut
@@ -126,8 +127,9 @@ void DesignRows::say(const std::vector<DesignFault>& faults, const SensorDesign&
     const bool used = row.field->has(inUse) ? same : sentence.isEmpty();
     if (!applied && !used) {
       const QString words = usedWords(*row.field, inUse);
-      sentence = sentence.isEmpty() ? QObject::tr("Not applied while another field is wrong; in use is %1.").arg(words)
-                                    : QObject::tr("%1. In use is still %2.").arg(sentence, words);
+      sentence = sentence.isEmpty()
+                     ? QObject::tr("Not applied while another field is invalid. The design still has %1.").arg(words)
+                     : QObject::tr("%1. The design still has %2.").arg(sentence, words);
     }
     if (row.label->isHidden()) sentence.clear();
     row.problem->say(sentence);

@@ -55,7 +55,7 @@ double meanOf(const BoundSummary& bounds) {
 
 ChartSpec sweepChart(const DesignSweepCurve& curve) {
   ChartSpec spec;
-  spec.title = "What the design resolves";
+  spec.title = "Error bounds of the design";
   spec.xLabel = labelOf(*fieldOf(curve.number)).toStdString();
   spec.yLabel = "bound [% of range]";
   spec.logY = true;
@@ -91,7 +91,7 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
   connect(&runner_, &JobRunner::started, this, [this] { start_->setEnabled(false); });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     start_->setEnabled(true);
-    if (cancelled) words_->setText(tr("Stopped; the curves are those before."));
+    if (cancelled) words_->setText(tr("Cancelled; the earlier curves are kept."));
     displayProject();
   });
   connect(&workbench_, &Workbench::projectChanged, this, &DesignSweep::displayProject);
@@ -109,7 +109,7 @@ void DesignSweep::build() {
   form->setContentsMargins(0, 0, 0, 0);
   number_ = new QComboBox;
   number_->setObjectName("sweepNumber");
-  number_->setToolTip(tr("The number of the design that is changed; all else stays"));
+  number_->setToolTip(tr("Parameter of the design that varies; all others stay as they are"));
   from_ = new NumberBox;
   to_ = new NumberBox;
   from_->setObjectName("sweepStart");
@@ -127,10 +127,10 @@ void DesignSweep::build() {
   start_ = new QPushButton(tr("Sweep"));
   start_->setObjectName("sweepDesign");
   start_->setToolTip(
-      tr("Solves the block's response for each value and bounds the errors of the forces; Esc stops it"));
+      tr("Solves the block's response for each value and computes the error bounds of the forces; Esc cancels"));
   save_ = new QPushButton(tr("Save table..."));
   save_->setObjectName("saveSweep");
-  save_->setToolTip(tr("Both bounds of each value as CSV"));
+  save_->setToolTip(tr("Saves both bounds of each value as CSV"));
   save_->setEnabled(false);
   words_ = new QLabel;
   words_->setObjectName("sweepWords");
@@ -139,10 +139,10 @@ void DesignSweep::build() {
   stale_->setObjectName("designSweepState");
   stale_->setProperty("role", "hint");
   stale_->setWordWrap(true);
-  form->addRow(tr("Number"), number_);
-  form->addRow(tr("from"), from_);
-  form->addRow(tr("to"), to_);
-  form->addRow(tr("values"), steps_);
+  form->addRow(tr("Parameter"), number_);
+  form->addRow(tr("From"), from_);
+  form->addRow(tr("To"), to_);
+  form->addRow(tr("Values"), steps_);
   form->addRow(start_, save_);
   form->addRow(stale_);
   form->addRow(words_);
@@ -164,7 +164,7 @@ void DesignSweep::readSettings(bool rangeByHand) {
   sweep.proposed = !rangeByHand;
   sweep.from = rangeByHand ? from_->value() : 0;
   sweep.to = rangeByHand ? to_->value() : 0;
-  workbench_.edit(tr("Change what is swept"), next);
+  workbench_.edit(tr("Change the sweep of the design"), next);
 }
 
 void DesignSweep::displayProject() {
@@ -187,9 +187,9 @@ void DesignSweep::displayProject() {
     if (swept != nullptr && swept->has(there) && swept->has(shown_->design))
       swept->set(there, swept->text(shown_->design));
     if (there != shown_->design)
-      state = tr("The curves are of another design than the present one.");
+      state = tr("Outdated: these curves belong to another design.");
     else if (shown_->noise != project.view.resistanceNoise)
-      state = tr("The curves are for another noise of the resistances.");
+      state = tr("Outdated: these curves belong to another noise of the resistances.");
   }
   stale_->setText(state);
   stale_->setVisible(!state.isEmpty());
@@ -219,11 +219,11 @@ void DesignSweep::run() {
       ++left;
   }
   if (designs.size() < 2) {
-    words_->setText(tr("Fewer than two of these values make a design that can be built; the panel at the left says why "
-                       "where one is typed there."));
+    words_->setText(tr("Fewer than two of these values give a design that can be built; the panel at the left shows "
+                       "why when one is entered there."));
     return;
   }
-  words_->setText(tr("Being computed..."));
+  words_->setText(tr("Computing..."));
   DesignSweepCurve curve;
   curve.design = project.design;
   curve.number = key.toStdString();
@@ -232,7 +232,7 @@ void DesignSweep::run() {
   // Electrodes do not stiffen the rubber: other places of theirs are read out of the same response.
   const bool sameBlock = key.startsWith("upper_layer") || key.startsWith("lower_layer") || key.startsWith("resistance");
   runner_.start(
-      tr("Sweeping a number of the design"),
+      tr("Sweeping a parameter of the design"),
       [this, designs, sameBlock, empty = curve, mesh = project.mesh](const std::stop_token& stop,
                                                                      JobProgress& progress) -> JobRunner::Taking {
         DesignSweepCurve found = empty;
@@ -266,7 +266,7 @@ void DesignSweep::run() {
           shown_.reset(); // also where it is what was found before
           Project next = workbench_.project();
           next.studies.curve = found;
-          workbench_.edit(tr("Sweep a number of the design"), next);
+          workbench_.edit(tr("Sweep a parameter of the design"), next);
         };
       },
       JobRunner::Loss::Work);
@@ -290,7 +290,7 @@ void DesignSweep::showCurve() {
           .arg((QString::number(best->at, 'g', 6) + " " + field.unit).trimmed(),
                boundPercents(best->bounds.allWithPrior),
                boundNewtons(best->bounds.allWithPrior, shown_->design.forceRange),
-               shown_->left > 0 ? tr(" %1 values make no design that can be built.").arg(shown_->left) : QString()));
+               shown_->left > 0 ? tr(" %1 values give no design that can be built.").arg(shown_->left) : QString()));
 }
 
 void DesignSweep::saveTable() {

@@ -46,10 +46,10 @@ LawPanel::LawPanel(QWidget* parent) : QGroupBox(resistanceGroup(), parent) {
 }
 
 void LawPanel::buildPressureLaw(QFormLayout& form) {
-  pressureLaw_ = new QCheckBox(tr("resistivity falls with pressure (Fig. 1)"));
+  pressureLaw_ = new QCheckBox(tr("Resistivity falls with pressure (Fig. 1)"));
   pressureLaw_->setObjectName("pressureLaw");
   pressureLaw_->setToolTip(
-      tr("g(p) = g (1 + max(p, 0) / p0)^(-n); the starting values are assumed, the figure prints none"));
+      tr("g(p) = g (1 + max(p, 0) / p0)^(-n). The initial values are assumed, as the figure prints none."));
   form.addRow(pressureLaw_);
   p0_ = new QLineEdit;
   p0_->setObjectName("p0");
@@ -95,7 +95,7 @@ bool LawPanel::read(SensorDesign& design) {
   for (auto [edit, value] : {std::pair{p0_, &law.p0_MPa}, std::pair{exponent_, &law.exponent}}) {
     const auto number = typedNumber(edit->text());
     *value = number.value_or(0);
-    if (!number) pressureWrong_ = tr("\"%1\" is no number; write it with a point, as 0.5").arg(edit->text());
+    if (!number) pressureWrong_ = tr("\"%1\" is not a number; use a decimal point, for example 0.5").arg(edit->text());
   }
   return good && pressureWrong_.isEmpty();
 }

@@ -21,9 +21,8 @@ constexpr double kResponseShare = 0.7; ///< of the time, that the block's respon
 
 QString intention() {
   return QObject::tr(
-      "The block's response is solved once for every load area; then hundreds of layouts are read out of "
-      "it, only such as can be made: 1 mm from electrode to electrode, 0.5 mm of rubber between the "
-      "layers, over, under and beside them.");
+      "The block's response is solved once per load area. Hundreds of layouts that can be built are then evaluated "
+      "from it: at least 1 mm between electrodes, and 0.5 mm of rubber around, above, below and between the layers.");
 }
 
 } // namespace
@@ -33,18 +32,16 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   auto* row = new QHBoxLayout;
   freedom_ = new QComboBox;
   freedom_->setObjectName("layoutFreedom");
-  freedom_->addItems({tr("the same places on every column-wire"), tr("places wire by wire")});
-  freedom_->setToolTip(
-      tr("Electrodes slide on their wires in steps of 0.05 mm and layers change their height; 1 mm from "
-         "electrode to electrode, 0.5 mm of rubber everywhere"));
+  freedom_->addItems({tr("Same positions on every wire"), tr("Positions per wire")});
+  freedom_->setToolTip(tr("Electrodes slide along their wires in steps of 0.05 mm and layers change their height, with "
+                          "at least 1 mm between electrodes and 0.5 mm of rubber around them"));
   search_ = new QPushButton(tr("Find a better layout"));
   search_->setObjectName("findLayout");
   search_->setToolTip(
-      tr("Lowers the noise floor of the middle row-wire, under the conduction field that of all row-wires; Esc "
-         "stops it"));
-  takeOver_ = new QPushButton(tr("Take it over"));
+      tr("Lowers the noise floor of the middle row-wire or, with the conduction field, of all row-wires; Esc cancels"));
+  takeOver_ = new QPushButton(tr("Use this layout"));
   takeOver_->setObjectName("takeLayout");
-  takeOver_->setToolTip(tr("Makes the layout that was found the design; can be undone"));
+  takeOver_->setToolTip(tr("Makes the found layout the current design; this can be undone"));
   takeOver_->setEnabled(false);
   row->addWidget(freedom_);
   row->addWidget(search_);
@@ -66,8 +63,8 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
     if (cancelled) shown_.reset(); // what was found before is shown again
     displayProject();
     if (!cancelled) return;
-    const QString before = shown_ ? tr(" Found before:<br>") + words_->text() : QString();
-    words_->setText(tr("Stopped; nothing was changed.") + before);
+    const QString before = shown_ ? tr(" Found earlier:<br>") + words_->text() : QString();
+    words_->setText(tr("Cancelled; nothing was changed.") + before);
   });
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     if (runner_.running()) runner_.cancel();
@@ -94,7 +91,7 @@ void LayoutFinder::search() {
   const Project& project = workbench_.project();
   const bool same = freedom_->currentIndex() == 0;
   takeOver_->setEnabled(false);
-  words_->setText(tr("Being searched..."));
+  words_->setText(tr("Searching..."));
   runner_.start(
       tr("Finding a better layout"),
       [this, same, design = project.design, mesh = project.mesh,
@@ -131,7 +128,7 @@ void LayoutFinder::search() {
           workbench_.edit(tr("Find a better layout"), next);
           if (!better)
             words_->setText(
-                tr("%1 layouts were tried; none that can be made is better than this one.").arg(found.tried));
+                tr("%1 layouts were tried; none that can be built is better than the current one.").arg(found.tried));
         };
       },
       JobRunner::Loss::Work);
@@ -150,9 +147,9 @@ void LayoutFinder::displayProject() {
   }
   const bool taken = found && found->layout == project.design;
   takeOver_->setEnabled(found && found->from == project.design && !runner_.running());
-  takeOver_->setText(taken ? tr("Taken over") : tr("Take it over"));
+  takeOver_->setText(taken ? tr("In use") : tr("Use this layout"));
   words_->setEnabled(!found || taken || found->from == project.design || runner_.running());
-  words_->setToolTip(words_->isEnabled() ? QString() : tr("Found for another design than the present one"));
+  words_->setToolTip(words_->isEnabled() ? QString() : tr("Found for another design"));
 }
 
 void LayoutFinder::takeOver() {
@@ -160,7 +157,7 @@ void LayoutFinder::takeOver() {
   if (!next.studies.found) return;
   next.design = next.studies.found->layout;
   workbench_.closeEntry();
-  workbench_.edit(tr("Take a better layout over"), next);
+  workbench_.edit(tr("Use a better layout"), next);
 }
 
 } // namespace palp

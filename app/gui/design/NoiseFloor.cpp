@@ -23,17 +23,18 @@ QString sampleBoundWords(int row, const NoiseBound& one, const NoiseBound& every
   const auto both = [&](const NoiseBound& bound) {
     return boundPercents(bound.withPriorPercent) + "</b><br>= <b>" + boundNewtons(bound.withPriorPercent, range);
   };
-  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz from the samples, area known, with prior (the best linear "
-                     "estimate of forces of that range; one that knows the limits can be up to 5 % better), in % of "
-                     "range and in N:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: "
-                     "<b>%3</b><br>without prior: row-wire %1 %4, all %5<br><i>Knowing nothing at all is 28.9 %. Real "
-                     "rubber adds hysteresis, creep and temperature.</i>")
-      .arg(row)
-      .arg(both(one), both(every), boundPercents(one.withoutPriorPercent), boundPercents(every.withoutPriorPercent));
+  return QObject::
+      tr("Cramer-Rao bound of Fx / Fy / Fz from the samples, loaded area known, with prior (the best linear estimate "
+         "of forces of this range; a method that uses the limits can be up to 5 % better), in % of range and in "
+         "N:<br>row-wire %1 alone: <b>%2</b><br>all row-wires: <b>%3</b><br>without prior: row-wire %1 %4, all "
+         "%5<br><i>Always predicting the mean gives 28.9 %. Real rubber adds hysteresis, creep and temperature.</i>")
+          .arg(row)
+          .arg(both(one), both(every), boundPercents(one.withoutPriorPercent),
+               boundPercents(every.withoutPriorPercent));
 }
 
 QString computing() {
-  return QObject::tr("Being computed...");
+  return QObject::tr("Computing...");
 }
 
 /// Side by side: the read-out in use is bold.
@@ -50,12 +51,12 @@ QString restBoundWords(const RestBounds& bounds, const SensorDesign& design) {
   const std::vector<DesignChoice>& readouts = designField("resistance.readout").choices;
   for (std::size_t k = 0; k < readouts.size(); ++k)
     add(readouts[k].words, bounds.readouts[k], design.field()->readout == static_cast<Readout>(k));
-  add(QObject::tr("Eq. (1) would say"), bounds.pairs, false);
-  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz at rest, area known, with prior (the best linear estimate; one "
-                     "that knows the range's limits can be up to 5 % better), in % of range:"
-                     "<table><tr><td></td><td>row-wire %1</td><td>all row-wires</td></tr>%2</table>"
-                     "<i>Knowing nothing at all is 28.9 %. The rubber conducts alike in all directions, also where it "
-                     "is deformed; real rubber adds hysteresis, creep and temperature.</i>")
+  add(QObject::tr("Eq. (1) for comparison"), bounds.pairs, false);
+  return QObject::tr("Cramer-Rao bound of Fx / Fy / Fz at rest, loaded area known, with prior (the best linear "
+                     "estimate; a method that uses the range's limits can be up to 5 % better), in % of "
+                     "range:<table><tr><td></td><td>row-wire %1</td><td>all row-wires</td></tr>%2</table><i>Always "
+                     "predicting the mean gives 28.9 %. The rubber's conductivity is isotropic, also where it is "
+                     "deformed; real rubber adds hysteresis, creep and temperature.</i>")
       .arg(centreRowWire(design.rowWires()))
       .arg(rows);
 }
@@ -69,11 +70,10 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
   noise_->setObjectName("resistanceNoise");
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
-  noise_->setPrefix(tr("noise of R: "));
+  noise_->setPrefix(tr("Noise of R: "));
   noise_->setKeyboardTracking(false);
-  noise_->setToolTip(
-      tr("Relative noise of each reading, in percent or as a share with an exponent (1e-4 is 0.01 %); a good board "
-         "has 0.0005 %, a plain one 0.01 %"));
+  noise_->setToolTip(tr("Relative noise of each reading, in percent or as a ratio with an exponent (1e-4 is 0.01 %); a "
+                        "good board has 0.0005 %, a plain one 0.01 %"));
   column->addWidget(noise_);
   words_ = new QLabel;
   words_->setObjectName("noiseFloor");
@@ -89,7 +89,8 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
   column->addWidget(scrolled, 1);
   samples_ = new QPushButton(tr("Generate samples"));
   samples_->setObjectName("floorSamples");
-  samples_->setToolTip(tr("As on the Network scene; the bound follows from how the resistances change with the force"));
+  samples_->setToolTip(tr(
+      "Generates samples as on the Network scene; the bound follows from how the resistances change with the force"));
   column->addWidget(samples_);
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
     Project next = workbench_.project();
@@ -106,7 +107,7 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
   connect(&bounding_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled) return;
     forget();
-    if (words_->text() == computing()) words_->setText(tr("Stopped; any edit of the design computes it."));
+    if (words_->text() == computing()) words_->setText(tr("Cancelled; any edit of the design starts it again."));
   });
   connect(&bounding_, &JobRunner::failed, words_, &QLabel::setText);
 }
@@ -140,13 +141,13 @@ void NoiseFloor::displayPairs() {
   const bool known = network_.upToDate();
   samples_->setVisible(!known);
   if (!known) {
-    words_->setText(tr("Known once there are samples of this design."));
+    words_->setText(tr("Available once there are samples of this design."));
     return;
   }
   if (network_.samples()->training.hasTouches()) {
-    words_->setText(
-        tr("The samples that are there are touches of an indenter; this floor is of forces on the load areas. "
-           "Generate samples of those in the Network scene; the resolution map is of touches."));
+    words_->setText(tr(
+        "The existing samples are touches of an indenter, but this noise floor is for forces on the load areas. "
+        "Generate samples of forces on areas in the Network scene, or use the resolution map, which is for touches."));
     return;
   }
   const double noise = workbench_.project().view.resistanceNoise;
@@ -157,7 +158,7 @@ void NoiseFloor::displayPairs() {
 }
 
 void NoiseFloor::boundPairs(double noise) {
-  bounding_.start(tr("Bounding the errors"),
+  bounding_.start(tr("Computing the noise floor"),
                   [this, noise, samples = network_.sharedSamples()](const std::stop_token& stop,
                                                                     JobProgress&) -> JobRunner::Taking {
                     std::vector<int> all(static_cast<std::size_t>(samples->training.rowWires));
@@ -190,7 +191,7 @@ void NoiseFloor::displayField() {
 }
 
 void NoiseFloor::boundField(double noise) {
-  bounding_.start(tr("Bounding the errors"),
+  bounding_.start(tr("Computing the noise floor"),
                   [this, noise, design = asked_->design, mesh = asked_->mesh,
                    before = floor_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
                     const auto floor = restFloor(

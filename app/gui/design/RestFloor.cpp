@@ -44,7 +44,7 @@ std::shared_ptr<const RestFloor> restFloor(const SensorDesign& design, const Mes
     if (!block) return nullptr;
     floor.block = std::make_shared<const AreaResponse>(std::move(*block));
   }
-  progress(0.7, "The field at rest");
+  progress(0.7, "Field at rest");
   if (design.field() != nullptr)
     floor.field = std::make_shared<const FieldResponse>(design, *design.field(), *floor.block, 0, 1, stop);
   if (stop.stop_requested()) return nullptr;

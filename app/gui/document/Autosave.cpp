@@ -135,10 +135,10 @@ std::filesystem::path Autosave::at(const char* name) const {
 void Autosave::makeFolder() {
   for (int tried = 0; tried < kTries && !lock_; ++tried) {
     folder_ = QDir(root_).filePath(QUuid::createUuid().toString(QUuid::WithoutBraces));
-    if (!QDir().mkpath(folder_)) throw Error(root_.toStdString() + ": no folder can be made there");
+    if (!QDir().mkpath(folder_)) throw Error(root_.toStdString() + ": a folder cannot be created there");
     if (const auto lock = lockOf(folder_); lock->tryLock(0)) lock_ = lock;
   }
-  if (!lock_) throw Error(root_.toStdString() + ": no folder there can be locked");
+  if (!lock_) throw Error(root_.toStdString() + ": a folder cannot be locked there");
 }
 
 /// What it holds is of a project that was left: it is not offered any more, and goes.
@@ -182,7 +182,7 @@ void Autosave::keep() {
 /// Once for each reason.
 void Autosave::say(const QString& reason) {
   if (reason == std::exchange(said_, reason)) return;
-  emit failed(tr("Unsaved work cannot be kept for the case of a crash: %1").arg(reason));
+  emit failed(tr("Unsaved work cannot be stored for recovery after a crash: %1").arg(reason));
 }
 
 void Autosave::keepProject() {
@@ -201,10 +201,11 @@ void Autosave::keepResults() {
     return;
   }
   const std::filesystem::path folder = at(kResults);
-  runner_->start(tr("Keeping samples and network"), [this, folder, results = now](const auto&, JobProgress&) {
-    saveResults(folder, results, resultFiles(folder));
-    return [this, results] { keptResults_.set(results); };
-  });
+  runner_->start(tr("Storing samples and network for recovery"),
+                 [this, folder, results = now](const auto&, JobProgress&) {
+                   saveResults(folder, results, resultFiles(folder));
+                   return [this, results] { keptResults_.set(results); };
+                 });
 }
 
 void Autosave::keepRecordings() {

@@ -64,7 +64,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
   connect(&network.writer(), &JobRunner::failed, this, [this](const QString& sentence) {
     auto* box =
         new QMessageBox(QMessageBox::Warning, tr("Cannot save"),
-                        tr("%1\n\nWhat was saved before stays as it is.").arg(sentence), QMessageBox::Ok, &window_);
+                        tr("%1\n\nThe file saved earlier is unchanged.").arg(sentence), QMessageBox::Ok, &window_);
     box->setObjectName("cannotSave");
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->open(); // the job ends meanwhile
@@ -139,7 +139,7 @@ bool Document::mayLeave(const Leaving& leaving) {
   QMessageBox question(QMessageBox::Question, tr("Save the project?"),
                        (QStringList(unsavedWords()) + losses).join("\n\n"),
                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
-  question.setInformativeText(tr("Save writes the changes to the project's file, Discard throws them away."));
+  question.setInformativeText(tr("Save writes the changes to the project's file; Discard loses them."));
   question.setObjectName("unsaved");
   question.setDefaultButton(QMessageBox::Save);
   const int answer = question.exec();
@@ -155,7 +155,7 @@ bool Document::mayReplace(const Project& next) {
 
 void Document::open() {
   const QStringList files =
-      askFilesToOpen(&window_, tr("Open"), tr("All files of Palp (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
+      askFilesToOpen(&window_, tr("Open"), tr("All Palp files (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
   if (!files.isEmpty()) open(files);
 }
 
@@ -169,7 +169,7 @@ void Document::open(const QStringList& files) {
     for (const QString& file : files) {
       if (fileKind(file) != FileKind::Samples)
         throw Error(file.toStdString() +
-                    ": is no file of samples; several files are opened together where all of them are");
+                    ": not a sample file; several files can be opened together only if all of them are sample files");
       samples.emplace_back(file.toStdString());
     }
     window_.openSamples(samples);
@@ -205,7 +205,7 @@ void Document::open(const QString& file) {
     }
   } catch (const std::exception& error) {
     QMessageBox::warning(&window_, tr("Cannot open"),
-                         tr("%1\n\nWhat was open stays as it is.").arg(QString::fromStdString(error.what())));
+                         tr("%1\n\nThe open project is unchanged.").arg(QString::fromStdString(error.what())));
   }
 }
 
@@ -240,12 +240,12 @@ void Document::openResults() {
 void Document::sayProblems(const OpenedResults& opened) {
   if (opened.ofOtherDesigns > 0)
     window_.showMessage(
-        tr("%1 of the trained networks are of other designs; they stay in their files and are not listed.")
+        tr("%1 of the trained networks belong to other designs; they stay in their files and are not listed.")
             .arg(opened.ofOtherDesigns));
   QStringList all;
   for (const std::string& problem : opened.problems) all << QString::fromStdString(problem);
   if (all.isEmpty()) return;
-  all << tr("What cannot be opened stays as it is.");
+  all << tr("Files that cannot be opened are left unchanged.");
   network_.sayProblem(all.join("\n"));
   window_.showMessage(all.join(' '));
 }
@@ -261,7 +261,7 @@ void Document::openExample(const QString& file, const QString& title) {
     if (!mayReplace(opened)) return;
     workbench_.replace(opened);
     window_.showScene(QString::fromStdString(opened.view.scene));
-    window_.showMessage(tr("%1: the example is a copy, it is saved under a name of your own.").arg(title));
+    window_.showMessage(tr("%1: the example is a copy; saving asks for a file name.").arg(title));
   } catch (const Error& error) {
     QMessageBox::warning(&window_, tr("Cannot open"), QString::fromStdString(error.what()));
   }
@@ -288,7 +288,7 @@ bool Document::write(const QString& file) {
   remember(file);
   const std::filesystem::path folder = resultsFolder(workbench_.file());
   const bool withResults = network_.upToDate();
-  window_.showMessage(withResults ? tr("Saved %1; its samples and networks are in the folder %2 beside it.")
+  window_.showMessage(withResults ? tr("Saved %1; its samples and networks are in the folder %2 next to it.")
                                         .arg(file, QString::fromStdString(folder.filename().string()))
                                   : tr("Saved %1.").arg(file));
   if (!withResults) return true;
@@ -313,7 +313,8 @@ void Document::recover(const QByteArray& project, const QString& file, const std
   network_.openResults(results, [this, done, results](const OpenedResults& opened) {
     sayProblems(opened);
     if (!opened.problems.empty())
-      window_.showMessage(tr("What cannot be opened stays in %1.").arg(QString::fromStdString(results.string())));
+      window_.showMessage(
+          tr("Files that cannot be opened are left in %1.").arg(QString::fromStdString(results.string())));
     done(opened.problems.empty());
   });
 }
@@ -324,7 +325,7 @@ void Document::replaceByRecovered(const Project& recovered, const QString& file)
     workbench_.replace(file.isEmpty() ? exampleProject() : loadProject(file.toStdString(), exampleProject()), file);
   } catch (const Error& error) {
     workbench_.replaceUnsaved(recovered, file);
-    window_.showMessage(tr("%1. The recovered project is complete without it; saving it replaces that file.")
+    window_.showMessage(tr("%1. The recovered project is complete without this file; saving replaces it.")
                             .arg(QString::fromStdString(error.what())));
     return;
   }

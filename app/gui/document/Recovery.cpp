@@ -21,7 +21,7 @@ QString momentWords(const QDateTime& moment) {
 /// What is left of a recording that was being written.
 QString recordingWords(const QString& file) {
   const QFileInfo info(file);
-  if (!info.exists()) return QObject::tr("%1: the file does not exist any more.").arg(file);
+  if (!info.exists()) return QObject::tr("%1: the file no longer exists.").arg(file);
   try {
     const RecordingReader readable(file.toStdString());
     return QObject::tr("%1: readable; its last reports were written at %2.")
@@ -39,9 +39,9 @@ void sayCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
     Autosave::forgetRecordings(work);
   }
   if (words.isEmpty()) return;
-  words.prepend(QObject::tr("Palp ended while it was recording. The recording holds what came until then."));
+  words.prepend(QObject::tr("Palp ended during a recording. The recording contains the data up to that moment."));
   window.showMessage(words.join(' '));
-  auto* box = new QMessageBox(QMessageBox::Information, QObject::tr("Recording cut"), words.join("\n\n"),
+  auto* box = new QMessageBox(QMessageBox::Information, QObject::tr("Recording interrupted"), words.join("\n\n"),
                               QMessageBox::Ok, &window);
   box->setObjectName("cutRecordings");
   box->setTextFormat(Qt::PlainText);
@@ -52,7 +52,7 @@ void sayCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
 enum class RecoveryWish { Recover, Discard, Later };
 
 RecoveryWish askAbout(MainWindow& window, const LeftWork& work) {
-  const QString name = work.file.isEmpty() ? QObject::tr("a project without a name") : QFileInfo(work.file).fileName();
+  const QString name = work.file.isEmpty() ? QObject::tr("an untitled project") : QFileInfo(work.file).fileName();
   QMessageBox question(QMessageBox::Question, QObject::tr("Recover unsaved work?"),
                        QObject::tr("Palp ended without saving %1. Changes up to %2 can be recovered.")
                            .arg(name, momentWords(work.saved)),

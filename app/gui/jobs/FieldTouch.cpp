@@ -64,7 +64,7 @@ FieldTouch::FieldTouch(QObject* parent) : QObject(parent) {
   });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || !wanted_ || find(*wanted_)) return;
-    problem_ = tr("The field was not computed: stopped. Another scene and back computes it.");
+    problem_ = tr("Computation of the field was cancelled. Switch to another scene and back to restart it.");
     emit changed();
   });
 }

@@ -60,7 +60,7 @@ QString JobRunner::loss() const {
   for (const Order& order : waiting_)
     if (order.loss == Loss::Work) lost << order.title;
   if (lost.isEmpty()) return {};
-  return tr("%1: this runs and ends here; what it has made is lost.").arg(lost.join(", "));
+  return tr("%1: running; it will be cancelled and its result lost.").arg(lost.join(", "));
 }
 
 void JobRunner::cancel() {

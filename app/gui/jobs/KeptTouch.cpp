@@ -75,7 +75,7 @@ LoadCase loadOn(const SensorDesign& kept, const Touch& shown, bool uniform) {
   try {
     return matchedLoad(shown.load(), shown.design(), kept);
   } catch (const Error& error) {
-    throw Error(std::string("the kept design: ") + error.what());
+    throw Error(std::string("the reference design: ") + error.what());
   }
 }
 
@@ -92,7 +92,7 @@ double KeptPath::fractionAt(double shown) const {
 }
 
 LoadCase uniformLoad(const Touch& touch) {
-  if (!touch.path().empty()) throw Error("the same force, uniform, follows no path: take the path away to compare");
+  if (!touch.path().empty()) throw Error("the same force, uniform, cannot follow a path: clear the path to compare");
   LoadCase load = touch.load();
   load.indenters.clear();
   const std::vector<IndenterState>& now = touch.solution()->state().indenters;
@@ -116,11 +116,11 @@ KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_
     for (const LoadCase& step : shown.path()) steps.push_back(matchedLoad(step, shown.design(), kept));
     touch.setLoad(load, steps);
   }
-  const std::string whose = uniform ? "the block" : "the kept design";
+  const std::string whose = uniform ? "the block" : "the reference design";
   const bool good = touch.advance(Stage::Displacements, {.oneTangent = true}, {.step = {}, .stop = stop});
   stopIfAsked(stop);
   if (!good)
-    throw Error(whose + " cannot bear the load" + (uniform ? " uniform: " : ": ") + touch.solution()->stopReason);
+    throw Error(whose + " cannot carry the load" + (uniform ? " uniform: " : ": ") + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
   KeptPath path{kept, load, loadPathStates(touch, stop), {}};
   if (uniform) path.asLarge = forceShares(shown);
@@ -144,7 +144,7 @@ KeptTouch::KeptTouch(QObject* parent) : QObject(parent) {
   });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || path_) return;
-    problem_ = tr("cancelled; F5 computes it");
+    problem_ = tr("cancelled; press F5 to compute it");
     emit changed();
   });
 }
@@ -176,7 +176,7 @@ void KeptTouch::run() {
   path_.reset();
   problem_.clear();
   const bool uniform = wanted_->uniform;
-  const QString what = uniform ? tr("Computing the uniform load") : tr("Computing the kept design");
+  const QString what = uniform ? tr("Computing the uniform load") : tr("Computing the reference design");
   runner_.start(what,
                 [this, what, uniform, kept = wanted_->kept,
                  shown = wanted_->shown](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {

@@ -16,8 +16,8 @@ LoadCase matchedLoad(const LoadCase& load, const SensorDesign& from, const Senso
   }
   if (to.areas != from.areas && !load.areas.empty())
     throw Error("the load is on area " + std::to_string(load.areas[0].area) +
-                ", which is another place on a top face of " + std::to_string(to.areas.columns) + " x " +
-                std::to_string(to.areas.rows) + " areas: press with a disc to compare them");
+                ", which is at another position on a top face of " + std::to_string(to.areas.columns) + " x " +
+                std::to_string(to.areas.rows) + " areas: use a disc to compare them");
   if (const auto wrong = whyInvalid(matched, to)) throw Error(*wrong);
   return matched;
 }
@@ -38,7 +38,7 @@ QString pressedWords(const LoadCase& load) {
 
 QString matchWords(const LoadCase& load, const SensorDesign& from, const SensorDesign& to) {
   if (from.block_mm == to.block_mm || (load.patches.empty() && load.indenters.empty())) return {};
-  return QObject::tr("pressed: this block on %1, the other one on %2")
+  return QObject::tr("load: this block on %1, the other one on %2")
       .arg(pressedWords(load), pressedWords(matchedLoad(load, from, to)));
 }
 

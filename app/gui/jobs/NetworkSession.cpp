@@ -159,7 +159,7 @@ bool NetworkSession::generating() const {
 
 bool NetworkSession::waitsForSamples() {
   if (!generating()) return false;
-  emit note(tr("Samples are being made; wait for them, or cancel them first."));
+  emit note(tr("Samples are being generated; wait for them, or cancel the generation."));
   return true;
 }
 
@@ -270,7 +270,7 @@ void NetworkSession::drain() {
 }
 
 void NetworkSession::open(const std::filesystem::path& file) {
-  if (!upToDate()) throw Error("the network cannot be tried: there are no samples yet; generate samples first");
+  if (!upToDate()) throw Error("the network cannot be tested: generate samples first");
   if (waitsForSamples()) return;
   const auto work = [this, file, samples = shown_.samples](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
     const auto fit = std::make_shared<NetworkFit>(*triedOn(readNetwork(file), *samples));
@@ -280,7 +280,7 @@ void NetworkSession::open(const std::filesystem::path& file) {
       if (samples == shown_.samples) take(fit, {});
     };
   };
-  runner_.start(tr("Trying the network"), work);
+  runner_.start(tr("Testing the network"), work);
 }
 
 void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files) {
@@ -292,8 +292,7 @@ void NetworkSession::openSamples(const std::vector<std::filesystem::path>& files
       const QString file = results.samples->file;
       if (results.design != design_) return;
       if (upToDate() && equal(*results.samples, *shown_.samples))
-        emit note(tr("%1 holds the samples that are there already: all that was made of them stays.")
-                      .arg(results.samples->file));
+        emit note(tr("%1 contains the samples already loaded; existing results are kept.").arg(results.samples->file));
       else
         showOpened(results);
       emit samplesOpened(file);
@@ -314,7 +313,7 @@ void NetworkSession::showOpened(NetworkResults results) {
   results.kept.clear(); // the list that is shown has grown since
   const SampleSettings settings = results.samples->settings;
   show(std::move(results));
-  if (known) return emit note(tr("%1 holds samples that were here before: what was made of them is back.").arg(file));
+  if (known) return emit note(tr("These samples of %1 were loaded earlier; their results were restored.").arg(file));
   const auto back = [this, settings] { // the newest that was made from them
     const auto of = std::find_if(shown_.kept.begin(), shown_.kept.end(),
                                  [&](const auto& network) { return network->madeFrom == settings; });

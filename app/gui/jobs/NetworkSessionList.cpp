@@ -79,7 +79,7 @@ void NetworkSession::goBackTo(std::size_t kept) {
       emit fitChanged();
     };
   };
-  runner_.start(tr("Trying the network"), work);
+  runner_.start(tr("Testing the network"), work);
 }
 
 void NetworkSession::goBackTo(const NetworkSettings& settings) {

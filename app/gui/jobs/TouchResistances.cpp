@@ -12,7 +12,7 @@ std::optional<TouchResistances> resistancesOf(const SensorDesign& design, const 
 
 QString whyNoResistances(const SensorDesign& design) {
   if (design.field() == nullptr) return {};
-  return QObject::tr("Not under the conduction field here: the Resistance scene shows it.");
+  return QObject::tr("Not available with the conduction field here: see the Resistance scene.");
 }
 
 } // namespace palp

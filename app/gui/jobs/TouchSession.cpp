@@ -200,7 +200,7 @@ void TouchSession::showState(int percent) {
 void TouchSession::estimateError() {
   if (shown_.solution() == nullptr || !upToDate()) return;
   if (!shown_.path().empty()) {
-    emit errorEstimated(std::nan(""), tr("not for a path; clear it for the load's own"));
+    emit errorEstimated(std::nan(""), tr("not available for a path; clear the path to estimate the error of its load"));
     return;
   }
   computed_ = 0;

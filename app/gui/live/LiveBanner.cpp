@@ -26,7 +26,7 @@ WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
   const bool goesOn = frame.forces.valid && frame.forces.missingReadings > 0;
   if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.decoder()) return {};
   if (!frame.frame.complete)
-    return {goesOn ? QObject::tr("Forces go on without, with wider deviations.") : QString(), {}};
+    return {goesOn ? QObject::tr("Forces continue without it, with larger deviations.") : QString(), {}};
   const auto rows = static_cast<int>(frame.frame.rowExpected.size());
   QStringList whole, broken;
   for (int row = 0; row < rows; ++row) {
@@ -34,19 +34,18 @@ WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
     (frame.frame.rowGood(row) ? whole : broken) << QString::number(row);
   }
   if (goesOn && whole.isEmpty())
-    return {QObject::tr("Forces go on without these readings, with wider deviations: mend the wire."), {}};
+    return {QObject::tr("Forces continue without these readings, with larger deviations: repair the wire."), {}};
   if (whole.isEmpty())
-    return {
-        QObject::tr("Every row-wire has readings that are bad (a column-wire crosses them all), so no network can do "
-                    "without them: mend the wire; forces come back by themselves."),
-        {}};
+    return {QObject::tr("Every row-wire has bad readings, as a column-wire crosses them all; no network can work "
+                        "without them. Repair the wire; forces then resume automatically."),
+            {}};
   if (host.replaying())
-    return {QObject::tr("A network that does without row-wire %1 gives forces here.").arg(broken.join(", ")), {}};
-  const QString how = goesOn
-                          ? QObject::tr("Forces go on without these readings, with wider deviations. Mend the wire, or "
-                                        "train a network that does without row-wire %1: Network, Row-wires %2.")
-                          : QObject::tr("Forces come back when it is mended, or with a network that does without "
-                                        "row-wire %1: Network, Row-wires %2.");
+    return {QObject::tr("A network that does not read row-wire %1 gives forces.").arg(broken.join(", ")), {}};
+  const QString how =
+      goesOn ? QObject::tr("Forces continue without these readings, with larger deviations. Repair the wire, or train "
+                           "a network that does not read row-wire %1: Network, Row-wires %2.")
+             : QObject::tr("Forces resume when the wire is repaired, or with a network that does not read row-wire %1: "
+                           "Network, Row-wires %2.");
   return {how.arg(broken.join(", "), whole.join(',')), whole.join(',')};
 }
 
@@ -61,14 +60,14 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   switch (status.state) {
   case LiveState::Searching:
     return status.connections > 0
-               ? QObject::tr("No board: %1. It goes on by itself when the board is back.").arg(reason)
+               ? QObject::tr("No board: %1. Palp reconnects automatically when the board is back.").arg(reason)
                : QObject::tr("No board is plugged in.");
   case LiveState::Refused:
   case LiveState::Stalled:
     return reason;
   case LiveState::Ended:
     if (!host.replaying()) return reason;
-    return QObject::tr("The recording is played to its end. %1").arg(reason);
+    return QObject::tr("The recording has ended. %1").arg(reason);
   case LiveState::Streaming:
   case LiveState::Paused:
     break;
@@ -81,7 +80,7 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
   for (const std::string& fault : last->faults) faults << QString::fromStdString(fault);
   if (faults.size() > kMostFaults)
     faults = faults.mid(0, kMostFaults) << QObject::tr("%1 more").arg(faults.size() - kMostFaults);
-  const QString way = doesWithout(*last) ? QObject::tr("The network in use does without it; forces go on.")
+  const QString way = doesWithout(*last) ? QObject::tr("The network in use does not need it; forces continue.")
                                          : wayOnward(host, *last).words;
   return way.isEmpty() ? faults.join("; ") : faults.join("; ") + ". " + way;
 }
@@ -101,12 +100,12 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   copyRemedy_->setToolTip(tr("Copies the command that installs the udev rule"));
   otherRows_ = new QPushButton(tr("Train without it..."));
   otherRows_->setObjectName("otherRows");
-  otherRows_->setToolTip(tr("Leads to the Network scene, with input and row-wires set for a network that reads the "
-                            "whole row-wires alone; generate samples there, train, and press Use in Live"));
+  otherRows_->setToolTip(tr("Opens the Network scene with input and row-wires set for a network that reads only intact "
+                            "row-wires; generate samples there, train, and press Use in Live"));
   row->addWidget(words_, 1);
   tare_ = new QPushButton(tr("Tare"));
   tare_->setObjectName("tareDue");
-  tare_->setToolTip(tr("Takes what is read now as rest"));
+  tare_->setToolTip(tr("Takes the present readings as rest"));
   row->addWidget(otherRows_);
   row->addWidget(tare_);
   row->addWidget(copyRemedy_);

@@ -69,14 +69,14 @@ void LiveBoards::build() {
   cell.title = new ElidedLabel;
   cell.title->setObjectName("boardTitle");
   cell.title->setProperty("role", "title");
-  auto* away = new QPushButton(tr("Take away"));
+  auto* away = new QPushButton(tr("Close board"));
   away->setObjectName("takeBoardAway");
-  away->setToolTip(tr("Shows this board no longer; what is recorded stays in its file"));
+  away->setToolTip(tr("Closes this board's view; its recordings stay in their files"));
   auto* panelShown = new QPushButton(tr("Panel"));
   panelShown->setObjectName("boardPanel");
   panelShown->setCheckable(true);
   panelShown->setChecked(true);
-  panelShown->setToolTip(tr("Shows the panel of this board, with source, tare and recording, or folds it away"));
+  panelShown->setToolTip(tr("Shows or hides this board's panel with source, tare and recording"));
   head->addWidget(cell.title, 1);
   head->addWidget(panelShown);
   head->addWidget(away);
@@ -180,7 +180,7 @@ void LiveBoards::add() {
   if (cells_.size() >= Project::kMostBoards) return;
   Project next = workbench_.project();
   next.moreBoards.push_back(settingsOfAnother());
-  workbench_.edit(tr("another board"), next);
+  workbench_.edit(tr("Add a board"), next);
   // Where it is narrow the views of all count more than a panel, which a button over each board brings back.
   const bool narrow = width() < kBoardWithPanel_px * static_cast<int>(cells_.size());
   for (const Cell& cell : cells_)
@@ -198,7 +198,7 @@ void LiveBoards::remove(LivePage* page) {
   next.moreBoards.erase(next.moreBoards.begin() + static_cast<std::ptrdiff_t>(board == 0 ? 0 : board - 1));
   takeAway(board);
   for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].page->setBoard(k);
-  workbench_.edit(tr("board taken away"), next);
+  workbench_.edit(tr("Close a board"), next);
   if (cells_.size() == 1)
     for (auto* panel : cells_[0].box->findChildren<SidePanel*>()) panel->setFoldedForNow(panel->foldedByHand());
   arrange();
@@ -209,7 +209,7 @@ void LiveBoards::takeAway(std::size_t board) {
   const Cell cell = cells_[board];
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(board));
   if (cell.page->host().recording())
-    emit message(tr("The recording to %1 has ended with its board.")
+    emit message(tr("The recording to %1 has ended because its board was closed.")
                      .arg(QString::fromStdString(cell.page->host().recordingFile().string())));
   cell.page->disconnect(this);
   cell.page->setParent(nullptr); // hides it

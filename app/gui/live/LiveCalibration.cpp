@@ -59,7 +59,7 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
 }
 
 QWidget* LiveCalibration::buildLabel() {
-  auto* box = new QGroupBox(tr("Known load now"));
+  auto* box = new QGroupBox(tr("Known load"));
   auto* column = new QVBoxLayout(box);
   known_ = new KnownLoad;
   known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
@@ -68,9 +68,9 @@ QWidget* LiveCalibration::buildLabel() {
   count_->setObjectName("labelFrames");
   count_->setRange(1, 100000);
   count_->setValue(50);
-  count_->setPrefix(tr("mean of "));
+  count_->setPrefix(tr("Mean of "));
   count_->setSuffix(tr(" frames"));
-  count_->setToolTip(tr("Frames that are averaged to one labelled frame"));
+  count_->setToolTip(tr("Number of frames that are averaged to one labelled frame"));
   collect_ = pushButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
   auto* row = new QHBoxLayout;
   row->addWidget(count_, 1);
@@ -96,18 +96,18 @@ QWidget* LiveCalibration::buildFrames() {
   auto* column = new QVBoxLayout(box);
   table_ = new QTableWidget(0, 3);
   table_->setObjectName("labelledFrames");
-  table_->setHorizontalHeaderLabels({tr("area"), tr("load\nFx, Fy, Fz"), tr("said\nFx, Fy, Fz")});
+  table_->setHorizontalHeaderLabels({tr("area"), tr("load\nFx, Fy, Fz"), tr("network\nFx, Fy, Fz")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setMinimumSectionSize(24);
   table_->verticalHeader()->setDefaultAlignment(Qt::AlignCenter); // numbers, by which the report names a frame
   table_->setWordWrap(false);
-  table_->setToolTip(tr("The known loads, and beside them what the network in use said of the frames, their mean [N]"));
+  table_->setToolTip(tr("Known loads, and the network's mean prediction for each labelled frame [N]"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  auto* load = pushButton(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a file (CSV)"));
-  saveFrames_ = pushButton(tr("Save..."), "saveFrames", tr("Keeps the labelled frames in a file (CSV)"));
-  remove_ = pushButton(tr("Remove"), "removeFrame", tr("Takes the selected frame away"));
+  auto* load = pushButton(tr("Load..."), "loadFrames", tr("Adds the labelled frames of a CSV file"));
+  saveFrames_ = pushButton(tr("Save..."), "saveFrames", tr("Saves the labelled frames to a CSV file"));
+  remove_ = pushButton(tr("Remove"), "removeFrame", tr("Removes the selected frame"));
   row->addWidget(load, 0, 0);
   row->addWidget(saveFrames_, 0, 1);
   row->addWidget(remove_, 1, 0, 1, 2);
@@ -144,12 +144,12 @@ QWidget* LiveCalibration::buildFit() {
   report_->setAlignment(Qt::AlignTop);
   report_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* row = new QGridLayout; // two in a line, for narrow windows; above, where a low window does not cut them
-  fit_ =
-      pushButton(tr("Fit"), "fitCalibration",
-                 tr("Gains and offset of the network's forces by recursive least squares, judged on frames left out"));
-  use_ = pushButton(tr("Use"), "useCalibration", tr("Decodes with the refined network from now on"));
-  saveNetwork_ = pushButton(tr("Save network..."), "saveCalibration", tr("Keeps the refined network in a file"));
-  back_ = pushButton(tr("Back"), "backFromCalibration", tr("Decodes with the network before again"));
+  fit_ = pushButton(
+      tr("Fit"), "fitCalibration",
+      tr("Fits gains and offsets of the network's forces by recursive least squares, validated on held-out frames"));
+  use_ = pushButton(tr("Use"), "useCalibration", tr("Uses the refined network for decoding from now on"));
+  saveNetwork_ = pushButton(tr("Save network..."), "saveCalibration", tr("Saves the refined network to a file"));
+  back_ = pushButton(tr("Back"), "backFromCalibration", tr("Uses the previous network for decoding again"));
   for (const auto& [push, place] : {std::pair{fit_, 0}, {use_, 1}, {saveNetwork_, 2}, {back_, 3}})
     row->addWidget(push, place / 2, place % 2);
   column->addLayout(row);
@@ -158,7 +158,7 @@ QWidget* LiveCalibration::buildFit() {
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
   connect(back_, &QPushButton::clicked, this, [this] {
     host_.backToNetwork();
-    emit message(tr("Decoding with %1 again.").arg(host_.networkName()));
+    emit message(tr("Now decoding with %1.").arg(host_.networkName()));
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
     const QString file = askFileToSave(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
@@ -189,8 +189,8 @@ bool LiveCalibration::mayUse() {
   for (const std::string& warning : warningsOf(calibration_->report)) words << QString::fromStdString(warning);
   if (words.isEmpty()) return true;
   const auto answer =
-      QMessageBox::question(this, tr("Use a bad fit?"),
-                            tr("This calibration is a bad fit: %1. Decode with it all the same?").arg(words.join("; ")),
+      QMessageBox::question(this, tr("Use a poor fit?"),
+                            tr("This calibration is a poor fit: %1. Use it for decoding anyway?").arg(words.join("; ")),
                             QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
   return answer == QMessageBox::Yes;
 }
@@ -201,14 +201,14 @@ void LiveCalibration::use() {
                            .arg(calibration_->report.samples)
                            .arg(QDateTime::currentDateTime().toString("yyyy-MM-dd HH:mm"));
   host_.useDecoder(calibration_->decoder, name);
-  emit message(tr("Decoding with the network %1; %2 can be had back.").arg(name, host_.networkBefore()));
+  emit message(tr("Now decoding with the network %1; Back returns to %2.").arg(name, host_.networkBefore()));
 }
 
 void LiveCalibration::displayState() {
   const QString& before = host_.networkBefore();
   back_->setEnabled(!before.isEmpty());
-  back_->setToolTip(before.isEmpty() ? tr("Decodes with the network before again; there is none")
-                                     : tr("Decodes with %1 again").arg(before));
+  back_->setToolTip(before.isEmpty() ? tr("Uses the previous network for decoding again; there is none yet")
+                                     : tr("Uses %1 for decoding again").arg(before));
   back_->setText(before.isEmpty() ? tr("Back") : tr("Back to %1").arg(before.section(',', 0, 0)));
   const LiveFrame* last = host_.history().last();
   const bool reads = last != nullptr && last->forces.valid && last->forces.forces_N.cols() > 0;
@@ -237,7 +237,7 @@ void LiveCalibration::collect() {
     return;
   }
   if (!host_.decoder()) {
-    complain(tr("There is no network: it says of which design the frames are."));
+    complain(tr("There is no network, so the design of the frames is unknown. Open a network first."));
     return;
   }
   if (!mayCollect()) return;
@@ -252,21 +252,20 @@ bool LiveCalibration::mayCollect() {
       last == nullptr ? std::string()
                       : labelAgainstReading(label.load.force_N, last->forces, label.load.area, *host_.decoder());
   if (doubt.empty()) return true;
-  QMessageBox question(
-      QMessageBox::Question, tr("Collect this load?"),
-      tr("Known load: %1 Collect a frame with this label all the same?").arg(QString::fromStdString(doubt)),
-      QMessageBox::Yes | QMessageBox::No, this);
+  QMessageBox question(QMessageBox::Question, tr("Collect this load?"),
+                       tr("Known load: %1 Collect a frame with this label anyway?").arg(QString::fromStdString(doubt)),
+                       QMessageBox::Yes | QMessageBox::No, this);
   question.setDefaultButton(QMessageBox::No);
   QAbstractButton* put = nullptr;
   if (host_.simulated()) {
-    question.setInformativeText(tr("The load of the simulated board is set on the left, at Touch by hand."));
-    put = question.addButton(tr("Put it on the simulated board"), QMessageBox::ActionRole);
+    question.setInformativeText(tr("Set the load of the simulated board at the left, under Touch by hand."));
+    put = question.addButton(tr("Apply to the simulated board"), QMessageBox::ActionRole);
     put->setObjectName("putSimulatedLoad");
   }
   const int answer = question.exec();
   if (put != nullptr && question.clickedButton() == put) {
     emit simulatedLoadAsked(label);
-    emit message(tr("The simulated board bears the load of the label now: collect it."));
+    emit message(tr("The simulated board now carries the labelled load: collect a frame."));
   }
   return answer == QMessageBox::Yes;
 }
@@ -281,7 +280,7 @@ void LiveCalibration::take() {
       newest_s_ = hostClock_s();
       unsaved_ = taken = true;
       if (!frame->forces.doubt.empty())
-        complain(tr("Frame %1 is doubted: %2. If the sensor drifts, take your hand off, tare, and collect anew.")
+        complain(tr("Frame %1 is implausible: %2. If the sensor drifts, unload it, tare, and collect again.")
                      .arg(frames_.samples().size())
                      .arg(QString::fromStdString(frame->forces.doubt)));
       if (!frames_.doubt().empty())
@@ -335,7 +334,7 @@ void LiveCalibration::displayFrames() {
   if (table_->rowCount() == samples.size()) return;
   table_->setRowCount(static_cast<int>(samples.size()));
   const bool placed = samples.places_mm.rows() > 0;
-  table_->horizontalHeaderItem(0)->setText(placed ? tr("place\nx, y [mm]") : tr("area"));
+  table_->horizontalHeaderItem(0)->setText(placed ? tr("position\nx, y [mm]") : tr("area"));
   for (int row = 0; row < table_->rowCount(); ++row) {
     const QString where =
         placed ? QString("%1, %2").arg(samples.places_mm(0, row), 0, 'f', 2).arg(samples.places_mm(1, row), 0, 'f', 2)
@@ -374,14 +373,15 @@ void LiveCalibration::displayFit() {
   saveNetwork_->setEnabled(calibration_.has_value());
   if (!calibration_) {
     const auto count = frames_.samples().size();
-    report_->setText(
-        tr("Put known loads on the sensor, one after the other, and collect a frame under each: begin with the "
-           "three weights that are suggested, on each area (a push is negative in z); "
-           "at least %1 of them, over the whole force range: a load may be put on again. Then fit. ")
-            .arg(kFewestCalibrationFrames) +
-        (host_.simulated() ? tr("The simulated board bears what is set on the left, at Touch by hand. ") : QString()) +
-        (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
-                                          : tr("%1 so far: enough to fit.").arg(count)));
+    report_->setText(tr("Put known loads on the sensor one after the other and collect a frame under each. Begin with "
+                        "the three suggested weights on each area (a push is negative in z). At least %1 frames over "
+                        "the complete force range are needed; a load may be repeated. Then fit. ")
+                         .arg(kFewestCalibrationFrames) +
+                     (host_.simulated()
+                          ? tr("The simulated board carries the load set at the left, under Touch by hand. ")
+                          : QString()) +
+                     (count < kFewestCalibrationFrames ? tr("%1 of %2 so far.").arg(count).arg(kFewestCalibrationFrames)
+                                                       : tr("%1 so far, enough to fit.").arg(count)));
     return;
   }
   double age_days = newest_s_ > 0 ? (hostClock_s() - newest_s_) / kDay_s : 0;
@@ -392,7 +392,7 @@ void LiveCalibration::displayFit() {
   const auto count = frames_.samples().size();
   const bool changed = count != fitted_ohm_.cols() || frames_.samples().resistances_ohm != fitted_ohm_;
   report_->setText(
-      (changed ? tr("<p><b>The frames have changed since: %1 now%2.</b></p>")
+      (changed ? tr("<p><b>The frames have changed since the fit: %1 now%2.</b></p>")
                      .arg(count)
                      .arg(count < kFewestCalibrationFrames ? tr(", %1 are needed").arg(kFewestCalibrationFrames)
                                                            : tr(", fit again"))

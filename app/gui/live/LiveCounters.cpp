@@ -40,31 +40,31 @@ LiveCounters::LiveCounters(QWidget* parent) : QWidget(parent) {
   grid_ = new QGridLayout(this);
   grid_->setContentsMargins(0, 0, 0, 0);
   grid_->setSpacing(6);
-  state_ = add("liveState", tr("State"), tr("What the source does now, and why"));
+  state_ = add("liveState", tr("State"), tr("State of the source, and the reason for it"));
   rate_ = add("liveRate", tr("Measured rate"),
-              tr("Reports a second that came in the last second, and whole scans (frames) of them"));
+              tr("Reports received in the last second, and complete scans (frames) per second"));
   losses_ = add("liveLosses", tr("Lost reports"),
-                tr("Reports of the board that are missing in its sequence. Below: bad ones, which came with a wrong "
-                   "length, ID, checksum or range; late frames, decoded more than 20 ms after the board read them; and "
-                   "all reports that came. All since the start"));
+                tr("Reports of the board that are missing in its sequence. Below: corrupt reports (wrong length, ID, "
+                   "checksum or range), frames decoded more than 20 ms after the board read them, and all reports "
+                   "received. All counts are since the start."));
   latency_ = add("liveLatency", tr("Latency [ms]"),
-                 tr("From the board's clock at the last reading of a frame to the decoded force [ms], median / 99 % / "
-                    "longest; offset and drift of the two clocks are taken out. Below: what this program takes of it, "
-                    "median / 99 %, "
-                    "from the report's arrival to the force"));
+                 tr("Time from the board's last reading of a frame to the decoded force [ms]: median / 99 % / longest. "
+                    "Offset and drift of the two clocks are removed. Below: the part spent in Palp, from the report's "
+                    "arrival to the force, median / 99 %."));
   trust_ =
       add("liveTrust", tr("Trust"),
-          tr("Whether the readings are those of a touch that the network knows. Misfit: what the most likely touch "
-             "leaves of the readings, over what noise, tare and the network's model explain (rms); it is 1 where "
-             "all is well, and 1 % of good frames lie above the limit. Doubted: more than half of the last quarter "
-             "of a second lies above it, or the force lies outside of what was trained: drift, hysteresis, several "
-             "touches, or another sensor. Uncalibrated: the readings fit, but how far this board differs from the "
-             "design is not in the deviation until a calibration has found it"));
+          tr("Whether the readings match a touch that the network was trained for. The residual is what the most "
+             "likely touch "
+             "leaves unexplained, relative to the noise, the tare and the network's model error (rms): about 1 is "
+             "good, and 1 % of good frames exceed the limit. Implausible: more than half of the last quarter of a "
+             "second exceeds the limit, or the force is outside of the training range; causes are drift, hysteresis, "
+             "several touches, or another sensor. Uncalibrated: the readings match, but the stated deviation leaves "
+             "out how far this board differs from the design until a calibration has measured it."));
   climate_ =
       add("liveClimate", tr("Temperature, noise, drift"),
-          tr("Of the board [degC]; relative noise of a reading: measured while taring, before that from frame to "
-             "frame; drift: how far all readings have gone together since rest [millionths], seen while the "
-             "sensor is left alone. Where that reads as more than 1 % of the force range, a tare is suggested"));
+          tr("Temperature of the board [degC]. Noise: relative noise of a reading [ppm], measured while taring and "
+             "before that from frame to frame. Drift: common change of all readings since rest [ppm], measured while "
+             "the sensor is unloaded. A tare is suggested when the drift reads as more than 1 % of the force range."));
   arrange(6);
 }
 
@@ -126,23 +126,23 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
                                 const DeviationNote& note) {
   if (status.state != LiveState::Streaming && status.state != LiveState::Paused && status.state != LiveState::Ended)
     return set(trust_, tr("none"), tr("no readings now"));
-  if (last == nullptr) return set(trust_, tr("waits"), tr("for the first frame"));
+  if (last == nullptr) return set(trust_, tr("waiting"), tr("for the first frame"));
   if (!last->forces.valid && last->forces.reason.empty() && (loading || status.decoderProblem.empty()))
-    return set(trust_, tr("waits"), tr("the network is being read"));
+    return set(trust_, tr("waiting"), tr("reading the network"));
   if (!last->forces.valid) return set(trust_, tr("none"), tr("no forces"));
   const DecodedForces& forces = last->forces;
   const bool doubted = !forces.doubt.empty();
-  const QString misfit = forces.misfit ? tr("misfit %1").arg(*forces.misfit, 0, 'g', 3) : tr("range of the readings");
+  const QString misfit = forces.misfit ? tr("residual %1").arg(*forces.misfit, 0, 'g', 3) : tr("readings within range");
   // All readings have gone together, by more than they scatter: that alone is no touch that is known.
   const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
   const QString remedy = !drifted          ? QString()
-                         : status.driftsOn ? tr("drifts on: wait, then tare; ")
+                         : status.driftsOn ? tr("still drifting: wait, then tare; ")
                                            : tr("tare: rest reads as %1 N; ").arg(status.driftForce_N, 0, 'g', 2);
   const QString why = remedy + QString::fromStdString(forces.doubt);
   const QString known =
       note.sentence.empty() ? misfit : tr("%1; %2").arg(misfit, QString::fromStdString(note.sentence));
-  const QString fits = note.brief.empty() ? tr("fits") : QString::fromStdString(note.brief);
-  set(trust_, doubted ? tr("doubted") : fits, doubted ? why : known, doubted || note.wrong);
+  const QString fits = note.brief.empty() ? tr("plausible") : QString::fromStdString(note.brief);
+  set(trust_, doubted ? tr("implausible") : fits, doubted ? why : known, doubted || note.wrong);
 }
 
 void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool simulated, bool replaying,
@@ -156,19 +156,20 @@ void LiveCounters::display(const LiveStatus& status, const LiveFrame* last, bool
     set(rate_, tr("%1 reports/s").arg(status.reportsPerSecond, 0, 'f', 0),
         wanted + tr("%1 frames/s").arg(status.framesPerSecond, 0, 'f', 0));
   set(losses_, tr("%1 lost").arg(status.counts.lost),
-      tr("%1 bad, %2 late, of %3").arg(status.counts.bad).arg(status.lateFrames).arg(status.counts.reports),
+      tr("%1 corrupt, %2 late, of %3").arg(status.counts.bad).arg(status.lateFrames).arg(status.counts.reports),
       status.counts.lost + status.counts.bad > 0);
   set(latency_, triple(status.latency, status.counts.frames),
-      status.counts.frames == 0
-          ? QString()
-          : tr("here %1 / %2 of it").arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
+      status.counts.frames == 0 ? QString()
+                                : tr("of these in Palp %1 / %2")
+                                      .arg(milliseconds(status.decoding.p50_s), milliseconds(status.decoding.p99_s)));
   displayTrust(status, last, loading, note);
   const QString drift = status.drift ? tr("drift %1 ppm").arg(qRound64(1e6 * *status.drift)) : QString();
   const QString reads = tr("reads as %1 N: tare; ").arg(status.driftForce_N, 0, 'g', 2);
-  const QString noise = status.noise > 0 ? tr("noise %1").arg(status.noise, 0, 'g', 2) : tr("noise not known");
+  const QString noise =
+      status.noise > 0 ? tr("noise %1 ppm").arg(1e6 * status.noise, 0, 'g', 2) : tr("noise not known");
   set(climate_,
       status.temperature_degC ? QString::fromUtf8("%1 \u00b0C").arg(*status.temperature_degC, 0, 'f', 1) : tr("none"),
-      status.driftsOn        ? tr("drifts by %1 N a minute: wait").arg(status.driftRate_N_min, 0, 'g', 2)
+      status.driftsOn        ? tr("still drifting %1 N/min: wait").arg(status.driftRate_N_min, 0, 'g', 2)
       : status.tareSuggested ? reads + drift
       : drift.isEmpty()      ? noise
                              : noise + ", " + drift,

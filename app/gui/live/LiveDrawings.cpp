@@ -141,7 +141,7 @@ int nearest(const std::vector<double>& places_mm, double x_mm) {
 HeatmapSpec changeHeatmap(const LiveFrame& frame, const std::string& restName, const LiveSettings& settings,
                           const std::optional<std::array<int, 2>>& selected) {
   HeatmapSpec spec;
-  spec.title = "dR/R since " + restName;
+  spec.title = "dR/R relative to " + restName;
   spec.values = kPercent * frame.change;
   spec.colors = {ColorMap::Diverging, -settings.change_percent, settings.change_percent, "dR/R", "%"};
   spec.selected = selected;
@@ -252,7 +252,7 @@ std::string truthLine(const SimulatedTouch::Truth& truth, const DecodedForces& f
 }
 
 std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& settings, const std::string& note) {
-  std::vector<std::string> lines{"Force vectors, " + withDigits(settings.arrow_mm_per_N, 6) + " mm a newton"};
+  std::vector<std::string> lines{"Force vectors, " + withDigits(settings.arrow_mm_per_N, 6) + " mm per N"};
   const DecodedForces& forces = frame.forces;
   if (!forces.valid) {
     if (!forces.reason.empty()) lines.push_back("no forces: " + forces.reason);
@@ -260,7 +260,7 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
   }
   // Deviations and areas hold only where the readings are those of a touch that the network knows.
   if (!forces.doubt.empty()) {
-    lines.push_back("not to be trusted: " + forces.doubt);
+    lines.push_back("implausible: " + forces.doubt);
     return lines;
   }
   for (Eigen::Index column = 0; column < forces.forces_N.cols(); ++column) {
@@ -272,19 +272,19 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
       lines.push_back("touch at " + pair(at, withDecimals, 2) + " mm, deviation " + pair(off, withDigits, 1) + " mm");
     }
     if (forces.area && forces.forces_N.cols() == 1)
-      lines.push_back("area " + std::to_string(*forces.area) +
-                      "; that it is no other one: " + withDecimals(kPercent * forces.areaConfidence, 0) + " %");
+      lines.push_back("area " + std::to_string(*forces.area) + ", confidence " +
+                      withDecimals(kPercent * forces.areaConfidence, 0) + " %");
   }
   if (lines.size() == 1) {
     const Eigen::Index column = strongest(forces);                                       // the curves draw this one
     const Eigen::Matrix3Xd hundredths_N = (100 * forces.forces_N.array()).round() / 100; // noise moves no digit
-    lines.push_back("at rest: " + components(forces, hundredths_N, column, withDecimals, 2) +
-                    " does not stand out of its deviation, " +
+    lines.push_back("no touch: " + components(forces, hundredths_N, column, withDecimals, 2) +
+                    " is within its deviation, " +
                     components(forces, forces.standardDeviation_N, column, withDigits, 1));
   }
   if (forces.missingReadings > 0)
     lines.push_back("without " + std::to_string(forces.missingReadings) + " of " + std::to_string(forces.readings) +
-                    " readings: wider deviations");
+                    " readings: larger deviations");
   if (!note.empty()) lines.push_back(note);
   return lines;
 }

@@ -276,7 +276,7 @@ void LiveHost::loadNetwork() {
     loader_.cancel();
     networkAsked_ = true;
     before_ = {};
-    return setNetwork({own()->decoder, {}, {}, tr("Made for the simulated design"), true});
+    return setNetwork({own()->decoder, {}, {}, tr("Network of the simulated design"), true});
   }
   // One that cannot read the board that is there does not take the place of one that can.
   const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;
@@ -322,7 +322,7 @@ bool LiveHost::namedBySettings() const {
 
 QString LiveHost::networkName() const {
   if (!network_.name.isEmpty()) return network_.name;
-  if (network_.file.empty()) return tr("Palp's own");
+  if (network_.file.empty()) return tr("Built-in network");
   return QString::fromStdString(std::filesystem::path(network_.file).filename().string());
 }
 
@@ -342,7 +342,7 @@ void LiveHost::useCalibrated(const std::shared_ptr<const CalibratedNetwork>& cal
 }
 
 void LiveHost::useChosenNetwork() {
-  mark(tr("network: as it was chosen").toStdString());
+  mark(tr("network: as selected").toStdString());
   loadNetwork();
 }
 

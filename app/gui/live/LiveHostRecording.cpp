@@ -33,7 +33,7 @@ void LiveHost::step(int frames) {
 }
 
 void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
-  if (!session_) throw Error(path.string() + ": nothing to record: no source is open");
+  if (!session_) throw Error(path.string() + ": cannot record, as no source is open");
   if (replay_ && std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(settings_.recording))
     throw Error(path.string() + ": is being played; record to another file");
   session_->startRecording(path, network_.fingerprint, replace);

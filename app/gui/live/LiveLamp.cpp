@@ -52,7 +52,7 @@ QString LiveWatch::alarm(const LiveHost& host) const {
 LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   const LiveStatus& status = host.status();
   const QString file = QString::fromStdString(host.recordingFile().filename().string());
-  const QString recording = status.recordingWaits ? QObject::tr("Recording %1 waits for the board").arg(file)
+  const QString recording = status.recordingWaits ? QObject::tr("Recording %1: waiting for the board").arg(file)
                             : status.recording    ? QObject::tr("Recording %1, %2").arg(file, timeOf(host.recorded_s()))
                                                   : QString();
   const QString alarm = this->alarm(host);
@@ -66,17 +66,17 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
   const QString source = QString::fromStdString(status.source);
   const QString state = QString::fromLatin1(name(status.state));
   if (!seen && !host.worksHidden() && status.connections > 0 && !host.replaying())
-    return {LiveLampState::Kind::Waits, QObject::tr("Live waits: %1").arg(source)};
+    return {LiveLampState::Kind::Waits, QObject::tr("Live is waiting: %1").arg(source)};
   if (status.state != LiveState::Streaming) {
     const bool stands = host.replaying() && (status.state == LiveState::Paused || status.state == LiveState::Ended);
-    const QString replay = status.state == LiveState::Ended ? QObject::tr("Played to its end: %1").arg(source)
+    const QString replay = status.state == LiveState::Ended ? QObject::tr("Replay ended: %1").arg(source)
                                                             : QObject::tr("Replay paused: %1").arg(source);
     if (!seen && host.worksHidden())
       return {LiveLampState::Kind::Alarm,
-              QObject::tr("Nothing is watched: %1").arg(stands ? replay : QObject::tr("the board is %1").arg(state))};
+              QObject::tr("Nothing is monitored: %1").arg(stands ? replay : QObject::tr("the board is %1").arg(state))};
     if (seen && stands) return {LiveLampState::Kind::Streams, replay};
     const bool gone = status.connections > 0 && status.state != LiveState::Paused && status.state != LiveState::Ended;
-    if (seen && gone) return {LiveLampState::Kind::Alarm, QObject::tr("Live: %1 is out, %2").arg(source, state)};
+    if (seen && gone) return {LiveLampState::Kind::Alarm, QObject::tr("Live: %1 is unplugged, %2").arg(source, state)};
     return seen ? LiveLampState{LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(state)} : LiveLampState{};
   }
   if (seen && host.replaying()) return {LiveLampState::Kind::Streams, QObject::tr("Playing the %1").arg(source)};
@@ -85,10 +85,10 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
     return {LiveLampState::Kind::Alarm, QObject::tr("No forces: %1").arg(QString::fromStdString(last->faults[0]))};
   if (seen) return {LiveLampState::Kind::Streams, QObject::tr("Live: %1").arg(source)};
   if (host.worksHidden() && host.settings().alarmOn && status.blind)
-    return {LiveLampState::Kind::Alarm, QObject::tr("The alarm sees no forces: %1").arg(source)};
+    return {LiveLampState::Kind::Alarm, QObject::tr("The alarm has no forces: %1").arg(source)};
   return host.worksHidden() ? LiveLampState{LiveLampState::Kind::Streams,
-                                            (host.settings().alarmOn ? QObject::tr("Alarm watches: %1")
-                                                                     : QObject::tr("Forces are sent: %1"))
+                                            (host.settings().alarmOn ? QObject::tr("Alarm on: %1")
+                                                                     : QObject::tr("Forces are being sent: %1"))
                                                 .arg(source)}
                             : LiveLampState{};
 }
@@ -107,11 +107,10 @@ void LiveLamp::display(const LiveLampState& state) {
   const bool waits = state.kind == LiveLampState::Kind::Waits;
   setText(QString::fromUtf8(waits ? "\u25CB " : "\u25CF ") + state.words);
   setAccessibleName(state.words);
-  setToolTip(
-      waits ? tr("%1. Nothing is read while nobody looks: no recording, no alarm and no receiver is on. A click "
-                 "leads to the Live scene.")
-                  .arg(state.words)
-            : tr("%1. A click leads to the Live scene; only its Record button ends a recording.").arg(state.words));
+  setToolTip(waits ? tr("%1. Nothing is read while this scene is hidden, as no recording, alarm or receiver is on. A "
+                        "click opens the Live scene.")
+                         .arg(state.words)
+                   : tr("%1. A click opens the Live scene; only its Record button ends a recording.").arg(state.words));
   const QString role = roleOf(state.kind);
   if (property("role").toString() == role) return;
   setProperty("role", role);

@@ -22,24 +22,21 @@ QString networkWords(const LiveHost& host) {
   if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
   const QString rows =
       static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
-          ? QObject::tr("all rows")
+          ? QObject::tr("all row-wires")
           : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
-  return QObject::tr("%1: %2, %3, trained for noise %4")
-      .arg(host.networkName())
-      .arg(QString::fromStdString(name(decoder->kind)), rows)
-      .arg(decoder->noise, 0, 'g', 2);
+  return QObject::tr("%1: %2, %3, trained for a noise of %4 ppm")
+      .arg(host.networkName(), traits(decoder->kind).description, rows)
+      .arg(1e6 * decoder->noise, 0, 'g', 3);
 }
 
 QString driftWords(const LiveStatus& status) {
   if (!status.tareSuggested) return {};
-  const QString rest = QObject::tr("The sensor drifts: all readings go together, and rest reads as %1 N")
+  const QString rest = QObject::tr("The sensor drifts: all readings change together, and rest reads as %1 N")
                            .arg(status.driftForce_N, 0, 'g', 2);
   if (status.driftRate_N_min == 0)
-    return QObject::tr("%1. Leave it alone; whether it goes on is known in a few seconds.").arg(rest);
-  if (!status.driftsOn) return QObject::tr("%1. Take your hand off it and tare.").arg(rest);
-  return QObject::tr(
-             "%1; it goes on by %2 N a minute. Tare it when that is below %3 N a minute: before, a tare would be "
-             "wanted again at once.")
+    return QObject::tr("%1. Leave it unloaded; whether it is still drifting is known in a few seconds.").arg(rest);
+  if (!status.driftsOn) return QObject::tr("%1. Unload the sensor and tare.").arg(rest);
+  return QObject::tr("%1; still drifting at %2 N/min. Wait until the drift is below %3 N/min before taring.")
       .arg(rest)
       .arg(status.driftRate_N_min, 0, 'g', 2)
       .arg(status.steadyRate_N_min, 0, 'g', 2);
@@ -56,14 +53,14 @@ QStringList LiveNews::take(const LiveHost& host) {
     network_ = network;
     known_ = false;
     if (!first)
-      news << QObject::tr("Another source: %1.")
+      news << QObject::tr("Now: %1.")
                   .arg(host.replaying()   ? QString::fromStdString(host.settings().recording)
                        : host.simulated() ? QObject::tr("the simulated board")
                                           : QObject::tr("a board"));
   }
   if (host.decoder()) {
     const QString network = host.networkName();
-    if (!network_.isEmpty() && network != network_) news << QObject::tr("The network in use is %1.").arg(network);
+    if (!network_.isEmpty() && network != network_) news << QObject::tr("Network in use: %1.").arg(network);
     network_ = network;
   }
   if (!host.replaying()) takeSource(host, news);
@@ -74,10 +71,10 @@ void LiveNews::takeSource(const LiveHost& host, QStringList& news) {
   const LiveStatus& status = host.status();
   const bool streams = status.state == LiveState::Streaming || status.state == LiveState::Paused;
   if (status.connections > 0 && !streams && !gone_)
-    news << QObject::tr("The board is out: %1.")
+    news << QObject::tr("Board unplugged: %1.")
                 .arg(status.reason.empty() ? QString::fromLatin1(name(status.state))
                                            : QString::fromStdString(status.reason));
-  if (streams && gone_) news << QObject::tr("The board is back: %1.").arg(QString::fromStdString(status.source));
+  if (streams && gone_) news << QObject::tr("Board is back: %1.").arg(QString::fromStdString(status.source));
   gone_ = status.connections > 0 && !streams;
   if (!streams) return;
   takeWires(host, news);
@@ -96,8 +93,7 @@ void LiveNews::takeWires(const LiveHost& host, QStringList& news) {
     if (!contains(faults_, fault)) news << QObject::tr("Broken: %1.").arg(QString::fromStdString(fault));
   for (const std::string& fault : faults_)
     if (!contains(fresh_, fault))
-      news << QObject::tr("No longer: %1. The network in use is %2.")
-                  .arg(QString::fromStdString(fault), host.networkName());
+      news << QObject::tr("Repaired: %1. Network in use: %2.").arg(QString::fromStdString(fault), host.networkName());
   faults_ = fresh_;
 }
 
@@ -105,8 +101,8 @@ void LiveNews::takeRest(const LiveStatus& status, QStringList& news) {
   if (status.taring) return;
   if (known_ && status.tare != tare_) {
     drifted_s_ = 0;
-    news << (status.tare ? QObject::tr("Tared: %1 frames are rest.").arg(status.tare->frames)
-                         : QObject::tr("The tare is cleared: changes count from %1.")
+    news << (status.tare ? QObject::tr("Tared (mean of %1 frames).").arg(status.tare->frames)
+                         : QObject::tr("Tare cleared: changes are relative to %1.")
                                .arg(QString::fromStdString(status.restName)));
   }
   tare_ = status.tare;

@@ -117,8 +117,8 @@ QWidget* LivePage::buildViews() {
   blockTabs_ = new QTabWidget;
   blockTabs_->setObjectName("blockTabs");
   blockTabs_->addTab(block_, tr("Forces"));
-  blockTabs_->addTab(twin_, tr("Twin"));
-  blockTabs_->setTabToolTip(1, tr("The finite element model under the decoded force, on demand"));
+  blockTabs_->addTab(twin_, tr("Model view"));
+  blockTabs_->setTabToolTip(1, tr("Finite element model under the decoded force, solved on request"));
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("liveHeatmap");
   upper_ = new QSplitter(Qt::Horizontal);
@@ -160,7 +160,7 @@ void LivePage::buildKeys() {
   key(Qt::Key_T, click("tare"));
   key(Qt::Key_R, [this, press = click("record")] { // typed by mistake it must not end one
     if (!host_.recording()) return press();
-    emit message(tr("A recording is running; Shift+R or the button ends it."));
+    emit message(tr("A recording is running; press Shift+R or the button to end it."));
   });
   key(Qt::SHIFT | Qt::Key_R, [this] {
     if (host_.recording()) stopRecording();
@@ -196,7 +196,7 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
     host_.mark(text.toStdString());
     emit message(host_.recording() ? tr("Marked: %1.").arg(text)
-                                   : tr("Marked: %1; nothing is being recorded.").arg(text));
+                                   : tr("Marked: %1; no recording is running.").arg(text));
   });
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
   connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
@@ -224,7 +224,7 @@ void LivePage::connectPanels() {
     next.design = host_.sensor();
     next.load = load;
     workbench_.edit(tr("load of the live force"), next);
-    emit message(tr("The decoded force is the load of the Deformation scene now."));
+    emit message(tr("The decoded force is now the load of the Deformation scene."));
   });
 }
 
@@ -269,7 +269,7 @@ void LivePage::connectSimulation() {
   });
   connect(block_, &PictureView::clicked, this, [this] {
     if (host_.simulated() && !settings().simulation.held)
-      emit message(tr("To press here tick \"Touch by hand\" in the panel, or press Return."));
+      emit message(tr("To press here, tick \"Touch by hand\" in the panel or press Return."));
   });
 }
 
@@ -282,7 +282,7 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
   if (host_.decoder()) takeNetworkInUse();
-  const QString words = host_.decoder() ? tr("%1. %2 stays in use.").arg(sentence, host_.networkName()) : sentence;
+  const QString words = host_.decoder() ? tr("%1. Still in use: %2.").arg(sentence, host_.networkName()) : sentence;
   control_->displayNetworkProblem(words);
   emit message(words);
 }

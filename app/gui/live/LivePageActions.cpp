@@ -50,15 +50,15 @@ void LivePage::tare() {
   if (held != nullptr) {
     const LiveArrow touch = arrowsOf(held->forces).front();
     const auto hundredths = [](double force_N) { return std::round(100 * force_N) / 100 + 0.0; }; // no -0
-    const auto answer = QMessageBox::question(this, tr("Tare under a load?"),
-                                              tr("The network reads (%1, %2, %3) N on area %4. A tare takes what is "
-                                                 "read now as rest: this force reads as none "
-                                                 "from then on. Tare all the same?")
-                                                  .arg(hundredths(touch.force_N.x()), 0, 'f', 2)
-                                                  .arg(hundredths(touch.force_N.y()), 0, 'f', 2)
-                                                  .arg(hundredths(touch.force_N.z()), 0, 'f', 2)
-                                                  .arg(touch.area),
-                                              QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
+    const auto answer =
+        QMessageBox::question(this, tr("Tare under a load?"),
+                              tr("The network reads (%1, %2, %3) N on area %4. A tare takes the present readings as "
+                                 "rest: this force will then read as zero. Tare anyway?")
+                                  .arg(hundredths(touch.force_N.x()), 0, 'f', 2)
+                                  .arg(hundredths(touch.force_N.y()), 0, 'f', 2)
+                                  .arg(hundredths(touch.force_N.z()), 0, 'f', 2)
+                                  .arg(touch.area),
+                              QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
     if (answer != QMessageBox::Yes) return;
   }
   host_.tare();
@@ -87,7 +87,7 @@ void LivePage::exportRecording(const QString& file) {
   exporter_.start(
       tr("Exporting the recording"),
       [this, file, request](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-        const auto show = [&](double share) { progress.set(share, "reads, decodes and writes its frames"); };
+        const auto show = [&](double share) { progress.set(share, "reading, decoding and writing its frames"); };
         const RecordingTableReport report = writeRecordingTable(request, show, stop);
         return [this, file, report] {
           const QString note = report.note.empty() ? QString() : tr(" %1.").arg(QString::fromStdString(report.note));
@@ -105,7 +105,7 @@ void LivePage::record(const QString& file, bool replace) {
     host_.startRecording(path, replace);
     control_->displayRecording(QString::fromStdString(path.string()), {});
     const QString name = QString::fromStdString(path.string());
-    emit message(host_.replaying() ? tr("Copies what is played of the recording to %1.").arg(name)
+    emit message(host_.replaying() ? tr("Recording what is played to %1.").arg(name)
                                    : tr("Recording to %1.").arg(name));
   } catch (const std::exception& refusal) {
     control_->displayRecording({}, QString::fromStdString(refusal.what()));
@@ -121,7 +121,7 @@ bool LivePage::endsRecording(const Leaving& leaving) const {
 }
 
 QString LivePage::recordingEnds() const {
-  return tr("%1 is being recorded: the recording ends here. What it holds until then stays in its file.")
+  return tr("The recording to %1 is in progress and will be stopped; the data recorded so far are kept.")
       .arg(QString::fromStdString(host_.recordingFile().string()));
 }
 
@@ -130,10 +130,10 @@ QStringList LivePage::lossesByClosing() const {
   if (host_.recording()) losses << recordingEnds();
   if (const QString exported = exporter_.loss(); !exported.isEmpty()) losses << exported;
   if (const int frames = unsavedFrames(); frames > 0)
-    losses << tr("Labelled frames of this board that are in no file: %1. To keep them use Save... at Calibration.")
+    losses << tr("%1 labelled frames of this board are not saved. Use Save... under Calibration to keep them.")
                   .arg(frames);
   if (host_.calibrated())
-    losses << tr("The network %1 is in use here alone. To keep it use Save network... at Calibration.")
+    losses << tr("The network %1 is used only here and is not saved. Use Save network... under Calibration to keep it.")
                   .arg(host_.networkName());
   return losses;
 }
@@ -154,7 +154,7 @@ void LivePage::solveTwin() {
   const SensorDesign& sensor = host_.sensor();
   const LoadCase load = host_.decoder() ? loadOf(last->forces, *host_.decoder(), sensor) : LoadCase{};
   if (load == LoadCase{}) {
-    emit message(tr("The sensor is at rest: press it, then ask for the twin."));
+    emit message(tr("No touch on the sensor: press it, then request the model view."));
     return;
   }
   blockTabs_->setCurrentWidget(twin_);
@@ -167,17 +167,18 @@ void LivePage::prepareNetwork(const QString& rows) {
   Project next = workbench_.project();
   const int own = next.design.rowWires(), board = host_.status().info ? host_.status().info->rowWires : own;
   if (own != board)
-    return emit message(
-        tr("The project's design has %1 row-wires, the board %2: open the board's design first.").arg(own).arg(board));
+    return emit message(tr("The project's design has %1 row-wires but the board has %2: open the board's design first.")
+                            .arg(own)
+                            .arg(board));
   NetworkSettings& network = next.network;
   network.input = InputKind::Resistance;
   network.rows = rows.toStdString();
   const double noise = std::max(settings().simulation.noise, kLeastTrainedNoise);
   network.noise = std::max(network.noise, noise);
   network.testNoise = std::max(network.testNoise, noise);
-  workbench_.edit(tr("row-wires that are whole"), next);
+  workbench_.edit(tr("Select intact row-wires"), next);
   emit message(
-      tr("The network is set to row-wires %1: generate samples and train it here, then press Use in Live.").arg(rows));
+      tr("The network is set to row-wires %1: generate samples, train it here, then press Use in Live.").arg(rows));
   emit sceneAsked("network");
 }
 

@@ -46,7 +46,7 @@ DeviationNote noteOf(const LiveHost& host, const SensorDesign& project) {
   const bool indenter = simulated && host.settings().simulation.moving && host.simulatesOwnDesign();
   DeviationNote note = deviationNote(
       *host.decoder(), {designFingerprint(simulated ? host.simulatedSensor() : project), ofSimulation, indenter});
-  if (note.wrong && simulated) note.sentence += "; \"Palp's own\" at Network takes the one made for this board";
+  if (note.wrong && simulated) note.sentence += "; \"Built-in\" under Network selects the one made for this board";
   return note;
 }
 
@@ -124,7 +124,7 @@ void LivePage::drawState() {
 
 void LivePage::drawForces() {
   const LiveFrame* last = host_.history().last();
-  if (last == nullptr) return block_->showForces({}, false, {tr("Force vectors: nothing has come yet").toStdString()});
+  if (last == nullptr) return block_->showForces({}, false, {tr("Force vectors: no data yet").toStdString()});
   const LiveState state = host_.status().state;
   const bool gone = state != LiveState::Streaming && state != LiveState::Paused;
   const bool stale = gone || !last->forces.valid;
@@ -135,11 +135,11 @@ void LivePage::drawForces() {
                });
   std::vector<std::string> lines = forceLines(*last, host_.settings(), note_.sentence);
   if (gone && host_.replaying() && state == LiveState::Ended)
-    lines = {lines.front(), "the last of the recording"};
+    lines = {lines.front(), "end of the recording"};
   else if (gone)
-    lines = {lines.front(), std::string("last known; the source is ") + name(state)};
+    lines = {lines.front(), std::string("last known forces; the source is ") + name(state)};
   else if (stale && !arrows.empty())
-    lines.insert(lines.begin() + 1, "in grey: the last known");
+    lines.insert(lines.begin() + 1, "grey: last known forces");
   std::optional<Eigen::Vector2d> truth_mm;
   if (const auto truth = gone ? std::nullopt : host_.trueTouch(last->frame); truth && truth->force_N.z() < 0) {
     truth_mm = truth->place_mm;

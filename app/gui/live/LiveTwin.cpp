@@ -71,12 +71,12 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 8, 8, 2);
-  auto* solve = new QPushButton(tr("Solve for the force now"));
+  auto* solve = new QPushButton(tr("Solve for this force"));
   solve->setObjectName("solveTwin");
-  solve->setToolTip(tr("Meshes and solves the block under the force that was decoded last (W)"));
-  use_ = new QPushButton(tr("Take as the load"));
+  solve->setToolTip(tr("Meshes and solves the block under the latest decoded force (W)"));
+  use_ = new QPushButton(tr("Use in Deformation"));
   use_->setObjectName("takeLoad");
-  use_->setToolTip(tr("Sets this force on the Deformation scene; undo takes it back"));
+  use_->setToolTip(tr("Makes this force the load of the Deformation scene; this can be undone"));
   use_->setEnabled(false);
   words_ = new QLabel;
   words_->setObjectName("twinWords");
@@ -118,14 +118,14 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
   }
   const auto work = [this, touch = std::move(start), field,
                      measured](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
-    progress.set(-1, "Solving the twin");
+    progress.set(-1, "Solving the model view");
     if (!touch.advance(Stage::Solution, {}, {{}, stop}) && !stop.stop_requested())
-      throw Error("the twin did not converge under this force; the last one stays");
+      throw Error("the model did not converge under this force; the last result is kept");
     if (stop.stop_requested()) return {};
     touch.advance(Stage::Displacements);
     auto resistances = resistancesOf(touch.design(), *touch.displacements());
     if (touch.design().field() != nullptr) {
-      progress.set(-1, "The conduction field of the twin");
+      progress.set(-1, "Conduction field of the model view");
       if (!field) field = std::make_shared<const ConductionField>(*touch.problem());
       const auto found = fieldFound(touch, touch.solution()->reachedLoadFraction, *field, stop);
       if (!found) return {};
@@ -136,7 +136,7 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
         Result{std::move(touch), std::move(fields), std::move(resistances), field, measured});
     return [this, result] { take(result); };
   };
-  runner_.start(tr("Solving the twin"), work);
+  runner_.start(tr("Solving the model view"), work);
 }
 
 void LiveTwin::take(std::shared_ptr<const Result> result) {
@@ -150,7 +150,7 @@ void LiveTwin::take(std::shared_ptr<const Result> result) {
 
 void LiveTwin::displayWords() {
   if (!result_) {
-    words_->setText(tr("The model's deformation under the decoded force, on demand."));
+    words_->setText(tr("Press \"Solve for this force\" to show the model's deformation under the decoded force."));
     return;
   }
   const Touch& touch = result_->touch;

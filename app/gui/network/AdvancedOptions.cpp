@@ -34,7 +34,7 @@ public:
   }
   void fixup(QString& input) const override {
     sayNotApplied(
-        edit_, QObject::tr("Not applied: \"%1\"; allowed is %2").arg(input, QString::fromStdString(option_.allowed)));
+        edit_, QObject::tr("Not applied: got \"%1\", expected %2").arg(input, QString::fromStdString(option_.allowed)));
     input = shown_;
   }
 
@@ -94,9 +94,9 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   options_ = new QWidget;
   auto* form = new QFormLayout(options_);
   form->setContentsMargins(0, 0, 0, 0);
-  allCenters_ = new QCheckBox(tr("a centre on every sample"));
+  allCenters_ = new QCheckBox(tr("A centre on every sample"));
   allCenters_->setObjectName("allCenters");
-  allCenters_->setToolTip(tr("However many samples there are"));
+  allCenters_->setToolTip(tr("Uses all samples as centres, regardless of their number"));
   form->addRow(QString(), allCenters_);
   for (const TrainOption& option : trainOptionTable())
     if (option.inForm) addField(*form, option);
@@ -119,14 +119,14 @@ QWidget* AdvancedOptions::fieldWidget(Field& field) {
   const auto changed = [this, what = tr("Change the %1").arg(QString::fromStdString(option.label))] { report(what); };
   if (option.form == TrainOption::Form::Choice) {
     auto* box = new QComboBox;
-    box->addItem(tr("as the mode says"));
+    box->addItem(tr("From mode"));
     for (const std::string& value : option.choices) box->addItem(QString::fromStdString(value));
     connect(box, &QComboBox::currentIndexChanged, this, changed);
     return box;
   }
   if (option.initial.empty()) {
     auto* edit = new QLineEdit;
-    edit->setPlaceholderText(tr("as the mode says"));
+    edit->setPlaceholderText(tr("From mode"));
     edit->setValidator(new OptionValidator(option, field.shown, *edit));
     connect(edit, &QLineEdit::editingFinished, this, changed);
     return edit;
@@ -166,7 +166,7 @@ void AdvancedOptions::showMode(const NetworkSettings& network) {
   for (const Field& field : fields_) {
     const bool known = network.decoder == DecoderKind::Rbf && field.option->ofMode;
     const QString words =
-        known ? tr("mode: %1").arg(QString::fromStdString(field.option->ofMode(mode))) : tr("as the mode says");
+        known ? tr("From mode: %1").arg(QString::fromStdString(field.option->ofMode(mode))) : tr("From mode");
     if (auto* box = qobject_cast<QComboBox*>(field.widget)) box->setItemText(0, words);
     if (auto* edit = qobject_cast<QLineEdit*>(field.widget)) edit->setPlaceholderText(words);
   }

@@ -23,11 +23,10 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
   table_ = new DataTable("decoders.csv");
   table_->setObjectName("trialsTable");
   table_->setAccessibleName(tr("Table of the decoders"));
-  train_ = new QPushButton(tr("Train the marked one"));
+  train_ = new QPushButton(tr("Train the selected decoder"));
   train_->setObjectName("trainMarked");
-  train_->setToolTip(
-      tr("Trains the decoder of the marked row as the comparison did: it is shown, and stands in the list "
-         "of trained networks"));
+  train_->setToolTip(tr("Trains the decoder of the selected row with the settings of the comparison; it is then shown "
+                        "and added to the trained networks"));
   connect(table_, &QTableWidget::itemSelectionChanged, this, &DecodersTab::displayMarked);
   connect(train_, &QPushButton::clicked, this, [this] {
     if (const auto network = marked()) emit networkAsked(*network);

@@ -47,7 +47,7 @@ void NetworkBound::compute() {
   for (const auto& question : questions_)
     if (!question->answer) open.push_back(*question);
   runner_.start(
-      tr("Bounding the errors"),
+      tr("Computing the error bounds"),
       [this, open, samples = session_.sharedSamples()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
         std::vector<Question> done = open;
         for (Question& question : done) {

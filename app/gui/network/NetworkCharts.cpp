@@ -96,9 +96,8 @@ void addCurves(ChartSpec& spec, const std::vector<SweepPoint>& points, const std
 ChartView* networkChart(const char* name) {
   auto* view = new ChartView;
   view->setObjectName(name);
-  view->setToolTip(
-      QObject::tr("A right click copies or saves the chart, as a picture or as its points; File, Export all "
-                  "charts and tables saves every one"));
+  view->setToolTip(QObject::tr("Right click to copy or save the chart as a picture or as points; File, Export all "
+                               "charts and tables saves every chart."));
   return view;
 }
 
@@ -187,9 +186,9 @@ std::string ofArea(const NetworkSamples& samples, int area) {
 ChartSpec decoupledChart(const NetworkSamples& samples, const NetworkFit& fit, int direction, int area) {
   const std::string force = kForces[static_cast<std::size_t>(direction)];
   ChartSpec spec;
-  spec.title = "Decoupled against true " + force + ofArea(samples, area);
+  spec.title = "Decoded against true " + force + ofArea(samples, area);
   spec.xLabel = "true " + force + " [N]";
-  spec.yLabel = "decoupled " + force + " [N]";
+  spec.yLabel = "decoded " + force + " [N]";
   ChartSeries exact = series("exact", Style::Line, 6, true);
   ChartSeries cloud = series("test samples", Style::Points, direction);
   for (Eigen::Index k = 0; k < samples.test.size(); ++k) {
@@ -224,7 +223,7 @@ ChartSpec relativeErrorChart(const NetworkSamples& samples, const NetworkFit& fi
 
 ChartSpec placeErrorChart(const NetworkSamples& samples, const NetworkFit& fit) {
   ChartSpec spec;
-  spec.title = "Error of the place, all test samples";
+  spec.title = "Error of the position, all test samples";
   spec.xLabel = "along x [mm]";
   spec.yLabel = "along y [mm]";
   ChartSeries cloud = series("test samples", Style::Points, 0);

@@ -44,8 +44,7 @@ bool NetworkFiles::mayReplaceSamples() const {
   if (!samples || samples->seconds < kLong_s || inFile || saved_.lock() == samples) return true;
   return QMessageBox::question(
              page_, tr("Open samples"),
-             tr("The %1 samples that are there were made in %2 and stand in no file of their own. Open "
-                "others in their place?")
+             tr("The %1 samples were generated in %2 and have not been saved. Open other samples instead?")
                  .arg(samples->training.size() + samples->test.size())
                  .arg(roughly(samples->seconds)),
              QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
@@ -57,8 +56,7 @@ void NetworkFiles::saveSamples() {
   const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
   if (QFileInfo::exists(test) &&
       QMessageBox::question(page_, tr("Save samples"),
-                            tr("The samples for testing go into %1, which is there already. Replace it?").arg(test)) !=
-          QMessageBox::Yes)
+                            tr("The test samples go into %1, which exists. Replace it?").arg(test)) != QMessageBox::Yes)
     return;
   session_.saveSamples(file.toStdString(),
                        [this, samples = std::weak_ptr(session_.sharedSamples())] { saved_ = samples; });

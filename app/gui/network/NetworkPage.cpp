@@ -189,7 +189,7 @@ void NetworkPage::goBackTo(std::size_t network) {
   const bool otherDesign = !session_.upToDate() && session_.samples() != nullptr;
   if (otherDesign) next.design = session_.results().design; // samples, sweep and comparison hold again, too
   workbench_.closeEntry();
-  workbench_.edit(otherDesign ? tr("Go back to a network and its design") : tr("Go back to a network"), next);
+  workbench_.edit(otherDesign ? tr("Restore a network and its design") : tr("Restore a network"), next);
   session_.goBackTo(network);
 }
 
@@ -199,16 +199,16 @@ QLayout* NetworkPage::buildBar() {
   bar->addWidget(words);
   area_ = new WholeBox;
   area_->setObjectName("testArea");
-  area_->setToolTip(tr("Load area whose test samples are drawn"));
+  area_->setToolTip(tr("Area whose test samples are plotted"));
   words->setBuddy(area_);
   bar->addWidget(area_);
   bar->addStretch(1);
   save_ = new QPushButton(tr("Save network..."));
   save_->setObjectName("saveNetwork");
-  save_->setToolTip(tr("Saves the network that is shown, for Live and for palp predict"));
+  save_->setToolTip(tr("Saves the network shown, for Live and for palp predict"));
   open_ = new QPushButton(tr("Open network..."));
   open_->setObjectName("openNetwork");
-  open_->setToolTip(tr("Tries a network of a file on the test samples"));
+  open_->setToolTip(tr("Opens a network from a file and evaluates it on the test samples"));
   live_ = new QPushButton(tr("Use in Live..."));
   live_->setObjectName("useInLive");
   bar->addWidget(live_);
@@ -246,7 +246,7 @@ QWidget* NetworkPage::buildCharts() {
   tabs_ = new QTabWidget;
   tabs_->setObjectName("networkTabs");
   tabs_->addTab(sweep_, tr("Spread"));
-  tabs_->addTab(buildFit(), tr("Decoupled against true force"));
+  tabs_->addTab(buildFit(), tr("Decoded against true force"));
   tabs_->addTab(decoders_, tr("Decoders"));
   tabs_->addTab(trained_, tr("Trained networks"));
   column->addWidget(tabs_, 1);
@@ -317,7 +317,7 @@ void NetworkPage::displaySamples() {
   if (rowWiresAndAreas() != choices_) displayProject();
   const auto [made, all] = session_.stoppedAt();
   QString words = samplesWords(session_);
-  if (all > 0) words += tr(" Stopped at sample %1 of %2; it goes on from there.").arg(made).arg(all);
+  if (all > 0) words += tr(" Stopped at sample %1 of %2; it can be continued.").arg(made).arg(all);
   panel_->displaySamples(session_.upToDate(), words, all > 0);
   displayReadiness();
   displayFit(); // it says whose it is and what comes next
@@ -355,8 +355,8 @@ void NetworkPage::displayFit() {
   const bool reads = fit != nullptr && fit->decoder.input.kind == InputKind::Resistance;
   live_->setEnabled(reads);
   live_->setToolTip(reads || fit == nullptr
-                        ? tr("Saves the network that is shown, and lets Live decode with it")
-                        : tr("A board reads resistances: train a network of those (Set for a board) first"));
+                        ? tr("Saves the network shown and uses it for decoding in Live")
+                        : tr("A board delivers resistances: train a network on those first (Set for a board)"));
   displayWords();
   const bool stale = !staleReason(session_, workbench_.project().network).isEmpty();
   for (ChartView* view : decoupled_) view->setFaint(stale);

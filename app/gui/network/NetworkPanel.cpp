@@ -86,7 +86,7 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   train_->setObjectName("train");
   form->addRow(train_);
   auto* follows = new WrappedLabel(
-      tr("Once there is a network, each change above trains at once and is kept in the tab Trained networks."));
+      tr("Once there is a network, each change above trains immediately and is kept in the tab Trained networks."));
   follows->setObjectName("trainsAtOnce");
   follows->setProperty("role", "hint");
   form->addRow(follows);
@@ -98,25 +98,25 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
 void NetworkPanel::buildInput(QFormLayout& form) {
   input_ = new QComboBox;
   input_->setObjectName("input");
-  input_->addItems({tr("displacements (Table 1)"), tr("resistances (Fig. 12)")});
+  input_->addItems({tr("Displacements (Table 1)"), tr("Resistances (Fig. 12)")});
   form.addRow(tr("Input"), input_);
   forLive_ = new QPushButton(tr("Set for a board (Live)"));
   forLive_->setObjectName("forLive");
   forLive_->setToolTip(
-      tr("Resistances of all row-wires, with the noise of a board's readings as Live's simulation has it: a "
-         "network of displacements cannot read a board, one trained without noise makes much of it"));
+      tr("Selects the resistances of all row-wires with the noise of the simulated board. A network of displacements "
+         "cannot read a board, and a network trained without noise amplifies the noise."));
   form.addRow(QString(), forLive_);
   connect(forLive_, &QPushButton::clicked, this, &NetworkPanel::takeLiveSettings);
   rows_ = new QLineEdit;
   rows_->setObjectName("rows");
-  rows_->setToolTip(tr("Row-wires whose resistances are read, or whose electrodes' displacements, "
-                       "counted from 0: 4, or 1,4,7, or 2-5, or all"));
+  rows_->setToolTip(tr(
+      "Row-wires whose resistances or electrode displacements are read, counted from 0: 4, or 1,4,7, or 2-5, or all"));
   form.addRow(tr("Row-wires"), rows_);
   rowsProblem_ = new WrappedLabel;
   rowsProblem_->setObjectName("rowsProblem");
   rowsProblem_->setProperty("role", "problem");
   rowsProblem_->hide();
-  rowsHint_ = new WrappedLabel(tr("counted from 0: 4, or 1,4,7, or 2-5, or all"));
+  rowsHint_ = new WrappedLabel(tr("Counted from 0: 4, or 1,4,7, or 2-5, or all"));
   rowsHint_->setProperty("role", "hint");
   auto* room = new QWidget; // always there: no field moves when a problem comes or goes
   room->setMinimumHeight(2 * fontMetrics().lineSpacing());
@@ -134,8 +134,8 @@ void NetworkPanel::buildInput(QFormLayout& form) {
 void NetworkPanel::buildNetwork(QFormLayout& form) {
   mode_ = new QComboBox;
   mode_->setObjectName("mode");
-  mode_->addItems({tr("default"), tr("paper")});
-  mode_->setToolTip(tr("default: one global scale, linear tail, leave-one-out; paper: as the paper describes it"));
+  mode_->addItems({tr("Default"), tr("Paper")});
+  mode_->setToolTip(tr("Default: one global scale, linear tail, leave-one-out. Paper: as described in the paper."));
   form.addRow(tr("Mode"), mode_);
   decoder_ = new QComboBox;
   decoder_->setObjectName("decoder");
@@ -143,21 +143,24 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
     decoder_->addItem(QString::fromStdString(text));
     decoder_->setItemData(decoder_->count() - 1, QString(traits(kind).description), Qt::ToolTipRole);
   }
-  decoder_->setToolTip(tr("The way from what is read to the force: rbf is the paper's radial basis network"));
+  decoder_->setToolTip(
+      tr("Method that maps the readings to the force: rbf is the paper's radial basis function network, ml is maximum "
+         "likelihood, gp is a Gaussian process; the tab Decoders describes all"));
   form.addRow(tr("Decoder"), decoder_);
   target_ = new QComboBox;
   target_->setObjectName("target");
-  target_->addItems({tr("the force"), tr("force and place")});
-  target_->setToolTip(tr("What it learns: the place is known of touches, and of measured samples that say it. Read all "
-                         "row-wires for it, one alone cannot tell on which side of it a touch is; the decoder touch is "
-                         "made for both, and takes a minute to train"));
-  form.addRow(tr("Learns"), target_);
+  target_->addItems({tr("Force"), tr("Force and position")});
+  target_->setToolTip(tr("Outputs of the decoder. The position is known for touches and for measured samples that "
+                         "include it. It needs all row-wires, as a single one cannot tell on which side of it a touch "
+                         "is. The decoder touch is made for both outputs and trains in about a minute."));
+  form.addRow(tr("Outputs"), target_);
   centers_ = new WholeBox;
   centers_->setObjectName("centers");
   centers_->setRange(0, 100000);
-  centers_->setSpecialValueText(tr("as the mode says"));
+  centers_->setSpecialValueText(tr("From mode"));
   centers_->setKeyboardTracking(false);
-  centers_->setToolTip(tr("Centres of the radial basis functions; fewer than samples make a smoother network"));
+  centers_->setToolTip(
+      tr("Number of centres of the radial basis functions; fewer centres than samples make a smoother network"));
   form.addRow(tr("Centres"), centers_);
   noise_ = new PercentBox;
   noise_->setObjectName("noise");
@@ -165,18 +168,16 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
   noise_->setDecimals(8);
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(
-      tr("Relative noise of each input that the network is trained with: in percent, or as a share with an exponent "
-         "(1e-4 is 0.01 %)"));
+      tr("Relative noise of each input in training, in percent or as a ratio with an exponent (1e-4 is 0.01 %)"));
   form.addRow(tr("Noise"), noise_);
   testNoise_ = new PercentBox;
   testNoise_->setObjectName("testNoise");
   testNoise_->setRange(0, 50);
   testNoise_->setDecimals(8);
   testNoise_->setKeyboardTracking(false);
-  testNoise_->setToolTip(
-      tr("Relative noise that the test samples get, apart from that of the training: in percent, or as a share with "
-         "an exponent (1e-4 is 0.01 %)"));
-  form.addRow(tr("Noise of the test"), testNoise_);
+  testNoise_->setToolTip(tr("Relative noise of the test samples, separate from that of the training, in percent or as "
+                            "a ratio with an exponent (1e-4 is 0.01 %)"));
+  form.addRow(tr("Test noise"), testNoise_);
   noiseWords_ = new WrappedLabel;
   noiseWords_->setObjectName("noiseWords");
   noiseWords_->setProperty("role", "hint");
@@ -193,14 +194,14 @@ void NetworkPanel::buildNetwork(QFormLayout& form) {
     target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
     read(tr("Change the decoder"));
   });
-  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change what is learned")); });
+  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the outputs")); });
   connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
-  connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise of the test")); });
+  connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the test noise")); });
 }
 
 void NetworkPanel::buildSpread(QFormLayout& form) {
-  automatic_ = new QCheckBox(tr("by leave-one-out"));
+  automatic_ = new QCheckBox(tr("By leave-one-out"));
   automatic_->setObjectName("automaticSpread");
   spread_ = spreadBox("spread");
   spread_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // however many digits: the panel keeps its width
@@ -313,10 +314,9 @@ void NetworkPanel::showNoise() {
 void NetworkPanel::showSpread() {
   const bool rbf = traits(network_.decoder).hasRbf;
   const QString paper = QString::number(paperSpread(network_.input), 'g', 4);
-  paper_->setText(tr("the paper's: %1").arg(paper));
-  paper_->setToolTip(
-      tr("Sets the spread at which the paper prints its smallest errors from such an input; how it scaled "
-         "its inputs it does not say"));
+  paper_->setText(tr("Paper's: %1").arg(paper));
+  paper_->setToolTip(tr("Sets the spread for which the paper prints its smallest errors from this input; the paper "
+                        "does not say how it scaled the inputs"));
   paper_->setEnabled(rbf);
   automatic_->setEnabled(rbf);
   centers_->setEnabled(rbf);
@@ -332,17 +332,19 @@ void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
 
 void NetworkPanel::displayReadiness(bool there, bool beingMade) {
   const std::array<std::pair<QPushButton*, QString>, 3> buttons{
-      {{train_, tr("Fits the network to the training samples and tries it on the others")},
-       {sweep_, tr("Trains once for each spread")},
-       {compare_, tr("Trains every kind of decoder on the same samples: error and time on the same axes")}}};
+      {{train_, tr("Trains the network on the training samples and evaluates it on the test samples")},
+       {sweep_, tr("Trains once per spread")},
+       {compare_, tr("Trains every kind of decoder on the same samples and compares error and time")}}};
   for (const auto& [button, tip] : buttons) {
     button->setEnabled(there && !beingMade);
-    button->setToolTip(beingMade ? tr("Samples are being made") : there ? tip : tr("Generate or open samples first"));
+    button->setToolTip(beingMade ? tr("Samples are being generated")
+                       : there   ? tip
+                                 : tr("Generate or open samples first"));
   }
 }
 
 void NetworkPanel::displayChosenSpread(double spread) {
-  automatic_->setText(spread > 0 ? tr("by leave-one-out: %1").arg(spread, 0, 'g', 4) : tr("by leave-one-out"));
+  automatic_->setText(spread > 0 ? tr("By leave-one-out: %1").arg(spread, 0, 'g', 4) : tr("By leave-one-out"));
 }
 
 /// In the place of the hint: no field moves.
@@ -357,8 +359,8 @@ void NetworkPanel::readRows() {
   try {
     rowsNamed(rows_->text().trimmed().toStdString(), rowWires_);
   } catch (const Error& error) {
-    showRowsProblem(
-        tr("%1. %2 is used.").arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
+    showRowsProblem(tr("%1. The network uses %2.")
+                        .arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
     return;
   }
   showRowsProblem({});

@@ -73,7 +73,7 @@ private:
                        .arg(file)
                        .arg(countWords(fit.madeFrom))
                        .arg(fit.madeFrom.seed)
-                       .arg(fit.madeFrom.surrogate ? QObject::tr(", by a surrogate") : QString());
+                       .arg(fit.madeFrom.surrogate ? QObject::tr(", with a surrogate model") : QString());
     commands_ << (fit.file.isEmpty() ? trainCommands(fit.settings, kDesignFile, file)
                                      : predictCommand(fit.settings, QFileInfo(fit.file).fileName()));
   }
@@ -94,7 +94,7 @@ private:
     if (samples == nullptr) return {};
     if (samples->file.isEmpty()) return {sampleCommands(ofSamples(), kDesignFile)};
     QString words = QObject::tr("train.csv, test.csv: the samples of %1").arg(QFileInfo(samples->file).fileName());
-    if (samples->split) words += QObject::tr(", every fifth one tests");
+    if (samples->split) words += QObject::tr(", every fifth one for testing");
     if (!samples->training.origin.mesh.empty()) words += "; " + QString::fromStdString(samples->training.origin.mesh);
     return {words};
   }

@@ -56,9 +56,9 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   addHeads(table.heads, QObject::tr("RMSE [% of range]"));
   addHeads(table.heads, QObject::tr("Eq. (13) [%]"));
   const bool places = std::any_of(trials.begin(), trials.end(), [](const auto& trial) { return trial.place; });
-  if (places) table.heads << QObject::tr("place, median [mm]");
-  table.heads << QObject::tr("training [s]") << QObject::tr("a sample [us]") << QObject::tr("not trained because")
-              << QObject::tr("in words");
+  if (places) table.heads << QObject::tr("position, median [mm]");
+  table.heads << QObject::tr("training [s]") << QObject::tr("time per sample [us]")
+              << QObject::tr("not trained because") << QObject::tr("description");
   for (const DecoderTrial& trial : trials) {
     QStringList row{QString::fromStdString(name(trial.kind))};
     const bool there = trial.refusal.isEmpty();
@@ -75,9 +75,8 @@ TableText trialsTable(const std::vector<DecoderTrial>& trials, const NoiseBound*
   add(row, bound->withPriorPercent);
   add(row, {});
   row << QString() << QString() << QString()
-      << QObject::tr(
-             "Cramer-Rao, area known, with prior: the best linear estimate; a method that knows the range's limits can "
-             "be up to 5 % better, and chance adds %1 % on %2 samples")
+      << QObject::tr("Cramer-Rao, loaded area known, with prior: the best linear estimate; a method that uses the "
+                     "range's limits can be up to 5 % better, and %2 test samples add a scatter of %1 %")
              .arg(100 / std::sqrt(2.0 * static_cast<double>(testSamples)), 0, 'g', 2)
              .arg(testSamples);
   table.rows.push_back(row);
@@ -90,7 +89,7 @@ TableText networksTable(const std::vector<std::shared_ptr<const NetworkFit>>& ne
   addHeads(table.heads, QObject::tr("[%]"));
   const bool places =
       std::any_of(networks.begin(), networks.end(), [](const auto& fit) { return fit->error.place.has_value(); });
-  if (places) table.heads << QObject::tr("place, median [mm]");
+  if (places) table.heads << QObject::tr("position, median [mm]");
   table.heads << QObject::tr("samples") << QObject::tr("when") << QObject::tr("input") << QObject::tr("row-wires")
               << QObject::tr("decoder") << QObject::tr("noise [%]") << QObject::tr("test noise [%]")
               << QObject::tr("spread") << QObject::tr("centres") << QObject::tr("ridge") << QObject::tr("scaler")

@@ -29,9 +29,9 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   form_ = new QFormLayout(this);
   kind_ = new QComboBox;
   kind_->setObjectName("sampleKind");
-  kind_->addItems({tr("forces on areas"), tr("touches anywhere")});
-  kind_->setToolTip(tr("Even forces on the load areas, as the paper has them, or an indenter that presses somewhere on "
-                       "the top face: a network of those can tell the place as well"));
+  kind_->addItems({tr("Forces on areas"), tr("Touches anywhere")});
+  kind_->setToolTip(tr("Uniform forces on the load areas, as in the paper, or an indenter that presses anywhere on the "
+                       "top face; a network trained on touches can also decode the position"));
   form_->addRow(tr("Samples of"), kind_);
   perArea_ = new WholeBox;
   perArea_->setObjectName("perArea");
@@ -39,13 +39,13 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   perArea_->setKeyboardTracking(false);
   perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
   perArea_->setToolTip(
-      tr("Random forces on each area, for training and as many others for testing; the paper has 100"));
+      tr("Number of random forces per area for training, and as many again for testing; the paper has 100"));
   count_ = new WholeBox;
   count_->setObjectName("touchCount");
   count_->setRange(kFewestTouches, kMostTouches);
   count_->setKeyboardTracking(false);
   count_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
-  count_->setToolTip(tr("Random touches for training, and as many others for testing"));
+  count_->setToolTip(tr("Number of random touches for training, and as many again for testing"));
   auto* either = new QWidget; // in one row: of two the first did not come back where the second had been (Qt 6.4)
   auto* boxes = new QHBoxLayout(either);
   boxes->setContentsMargins(0, 0, 0, 0);
@@ -60,17 +60,17 @@ SamplesBox::SamplesBox(QWidget* parent) : QGroupBox(tr("Samples"), parent) {
   seed_->setRange(0, 1000000000);
   seed_->setToolTip(tr("The same seed gives the same samples"));
   form_->addRow(tr("Seed of samples"), seed_);
-  surrogate_ = new QCheckBox(tr("by a surrogate"));
+  surrogate_ = new QCheckBox(tr("Use a surrogate model"));
   surrogate_->setObjectName("surrogate");
-  surrogate_->setToolTip(tr("A polynomial of full solves on each area: many samples in seconds, with an error that is "
-                            "measured and said"));
+  surrogate_->setToolTip(tr("Samples a polynomial fitted to full solves on each area: many samples in seconds, with a "
+                            "measured error that is shown"));
   form_->addRow(QString(), surrogate_);
   buildFiles();
   connect(kind_, &QComboBox::activated, this, &SamplesBox::readKind);
   connect(perArea_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
   connect(count_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the number of samples")); });
   connect(seed_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the seed")); });
-  connect(surrogate_, &QCheckBox::toggled, this, [this] { read(tr("Change how samples are made")); });
+  connect(surrogate_, &QCheckBox::toggled, this, [this] { read(tr("Change the method of sampling")); });
   connect(generate_, &QPushButton::clicked, this, &SamplesBox::generateAsked);
 }
 
@@ -79,20 +79,23 @@ void SamplesBox::buildTouches() {
   shape_ = new QComboBox;
   shape_->setObjectName("touchShape");
   for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
-  shape_->setToolTip(tr("The rigid body that presses, the same for all; its size is random"));
+  shape_->setToolTip(tr("Shape of the rigid indenter, the same for all touches; its size is random"));
   form_->addRow(tr("Indenter"), shape_);
   connect(shape_, &QComboBox::activated, this, [this] { read(tr("Change the indenter of the samples")); });
-  radius_ = range("touchRadius", tr("Radius"), kMost_mm, tr(" mm"), tr("Drawn evenly from this range"));
-  rim_ = number("touchRim", tr("Rim"), 0, kMost_mm, tr(" mm"));
-  rim_->setToolTip(tr("Radius of the punch's rounded rim"));
-  form_->addRow(tr("Rim"), rim_);
-  press_ = range("touchPress", tr("Press"), kMost_N, tr(" N"), tr("Downwards, drawn evenly from this range"));
-  friction_ = range("touchFriction", tr("Friction"), kMostFriction, {},
-                    tr("Coulomb's coefficient. Without any, touches press straight down; with friction they also push "
-                       "sideways, up to 0.7 of its limit, and take some five times as long"));
+  radius_ = range("touchRadius", tr("Radius"), kMost_mm, tr(" mm"),
+                  tr("Radius of the indenter, uniformly distributed over this range"));
+  rim_ = number("touchRim", tr("Edge radius"), 0, kMost_mm, tr(" mm"));
+  rim_->setToolTip(tr("Radius of the punch's rounded edge"));
+  form_->addRow(tr("Edge radius"), rim_);
+  press_ =
+      range("touchPress", tr("Force"), kMost_N, tr(" N"), tr("Downward force, uniformly distributed over this range"));
+  friction_ =
+      range("touchFriction", tr("Friction"), kMostFriction, {},
+            tr("Coulomb's coefficient of friction. At 0, touches press straight down; with friction they also push "
+               "tangentially, up to 0.7 of the friction limit, and each solve takes about five times as long."));
   margin_ = number("touchMargin", tr("Margin"), 0, kMost_mm, tr(" mm"));
-  margin_->setToolTip(tr("No touch is nearer to the sides of the block than this"));
-  form_->addRow(tr("From the sides"), margin_);
+  margin_->setToolTip(tr("Smallest distance of a touch from the sides of the block"));
+  form_->addRow(tr("Margin to the edges"), margin_);
   problem_ = new QLabel;
   problem_->setObjectName("touchProblem");
   problem_->setProperty("role", "problem");
@@ -116,9 +119,9 @@ QDoubleSpinBox* SamplesBox::number(const char* name, const QString& label, doubl
 
 SamplesBox::Pair SamplesBox::range(const char* name, const QString& label, double high, const QString& unit,
                                    const QString& tip) {
-  const QByteArray least = QByteArray(name) + "Least", most = QByteArray(name) + "Most";
-  const Pair pair{number(least.constData(), tr("%1, least").arg(label), 0, high, {}),
-                  number(most.constData(), tr("%1, most").arg(label), 0, high, unit)};
+  const QByteArray least = QByteArray(name) + "Minimum", most = QByteArray(name) + "Maximum";
+  const Pair pair{number(least.constData(), tr("%1, minimum").arg(label), 0, high, {}),
+                  number(most.constData(), tr("%1, maximum").arg(label), 0, high, unit)};
   auto* both = new QWidget;
   auto* row = new QHBoxLayout(both);
   row->setContentsMargins(0, 0, 0, 0);
@@ -144,11 +147,11 @@ void SamplesBox::buildFiles() {
   auto* files = new QHBoxLayout;
   auto* open = new QPushButton(tr("Open..."));
   open->setObjectName("openSamples");
-  open->setToolTip(tr("Samples of this design or imported ones, from files; several parts of one set are joined"));
+  open->setToolTip(tr("Opens samples of this design or imported ones from files; several parts of one set are joined"));
   save_ = new QPushButton(tr("Save..."));
   save_->setObjectName("saveSamples");
-  save_->setToolTip(
-      tr("NAME.csv for training and NAME-test.csv beside it, as palp sample writes them; .h5 and .npz as well"));
+  save_->setToolTip(tr("Saves NAME.csv for training and NAME-test.csv for testing next to it, as palp sample writes "
+                       "them; .h5 and .npz are possible as well"));
   files->addWidget(open);
   files->addWidget(save_);
   form_->addRow(files);
@@ -198,7 +201,7 @@ void SamplesBox::showTouches() {
     form_->setRowVisible(row, touches);
   form_->setRowVisible(radius_[0]->parentWidget(), touches && touches_.shape != IndenterShape::Plane);
   form_->setRowVisible(rim_, touches && touches_.shape == IndenterShape::Flat);
-  countLabel_->setText(touches ? tr("Touches") : tr("On each area"));
+  countLabel_->setText(touches ? tr("Touches") : tr("Per area"));
   countLabel_->setBuddy(touches ? count_ : perArea_);
   perArea_->setVisible(!touches);
   count_->setVisible(touches);
@@ -211,7 +214,7 @@ void SamplesBox::check() {
   if (samples_.touches) wrong = whyInvalid(rangeOf(*samples_.touches, design_), design_);
   const double half_mm = design_.block_mm.head<2>().minCoeff() / 2;
   if (wrong && samples_.touches->margin_mm > half_mm) // in the words of the field
-    problem_->setText(tr("From the sides: %1 mm; allowed is at most %2 mm, half of the block's shorter side")
+    problem_->setText(tr("Margin to the edges: got %1 mm, expected at most %2 mm, half of the block's shorter side")
                           .arg(samples_.touches->margin_mm)
                           .arg(half_mm));
   else
@@ -225,7 +228,7 @@ void SamplesBox::displayState(bool there, const QString& words, bool goOn) {
   words_->setText(words);
   save_->setEnabled(there);
   check(); // the time that samples take may be known better
-  generate_->setText(goOn ? tr("Go on generating samples") : tr("Generate samples"));
+  generate_->setText(goOn ? tr("Continue generating samples") : tr("Generate samples"));
 }
 
 /// The first touches are the usual ones of the design, later ones those of before.

@@ -25,7 +25,7 @@ SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
   best_ = new QPushButton(tr("Take the best spread"));
   best_->setObjectName("bestSpread");
   best_->setToolTip(
-      tr("Sets the spread of the smallest test error of the sweep (bold in the table) and trains with it"));
+      tr("Sets the spread with the smallest test error of the sweep (bold in the table) and trains with it"));
   table_ = new DataTable("sweep.csv");
   table_->setObjectName("sweepTable");
   table_->setAccessibleName(tr("Table of the sweep"));
@@ -65,10 +65,10 @@ void SweepTab::display(const NetworkSession& session, const NetworkSettings& now
   words_->setText(best ? tr("Smallest test error at spread %1 (RMSE over all forces, in % of range). %2%3")
                              .arg(points[*best].spread, 0, 'g', 4)
                              .arg(atEnd && !session.working()
-                                      ? tr("It is at the end of the range: a wider one may hold a better. ")
+                                      ? tr("It is at the end of the range: a wider range may contain a better one. ")
                                       : QString(),
                                   reason)
-                       : tr("A sweep trains once for each spread; its table stands here."));
+                       : tr("Results of a sweep appear here; it trains once per spread."));
   const TableText table = sweepTable(points, session.samples());
   const bool grew = table_->rowCount() != static_cast<int>(table.rows.size());
   table_->show(table.heads, table.rows);

@@ -32,7 +32,7 @@ const SampleBounds* TouchBounds::ofTheShown() {
 }
 
 void TouchBounds::compute() {
-  runner_.start(tr("Bounding the errors"),
+  runner_.start(tr("Computing the error bounds"),
                 [this, samples = session_.sharedSamples(), noise = noise_,
                  design = session_.design()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
                   std::optional<SampleBounds> found;
@@ -56,7 +56,7 @@ void TouchBounds::computeLearned() {
   fit_ = session_.sharedFit();
   bounds_->learned.clear();
   if (session_.fit()->settings.decoder != DecoderKind::TouchInversion) return; // it has learned none
-  runner_.start(tr("Bounding the errors"),
+  runner_.start(tr("Computing the error bounds"),
                 [this, samples = session_.sharedSamples(), noise = noise_,
                  fit = session_.sharedFit()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
                   auto found = learnedBounds(fit->decoder, samples->test, noise, stop);

@@ -25,26 +25,24 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   list_->setAccessibleName(tr("Trained networks"));
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setAlternatingRowColors(true);
-  list_->setToolTip(
-      tr("Enter or a double click goes back to a network, with the settings it was trained with; F2 names "
-         "it; a click on a head sorts; a right click saves the list as CSV"));
-  back_ = new QPushButton(tr("Go back to this one"));
+  list_->setToolTip(tr("Enter or a double click restores a network with its training settings, F2 names it, a click on "
+                       "a column head sorts, and a right click saves the list as CSV."));
+  back_ = new QPushButton(tr("Restore"));
   back_->setObjectName("goBack");
   back_->setToolTip(
-      tr("Shows the network again and sets the panel as it was, and the design where the network is of an "
-         "earlier one; can be undone"));
-  away_ = new QPushButton(tr("Take away"));
+      tr("Shows the selected network again with its settings, and its design if that has changed; this can be undone"));
+  away_ = new QPushButton(tr("Remove"));
   away_->setObjectName("takeAway");
-  away_->setToolTip(tr("Takes the marked networks off the list; the one that is shown stays shown"));
-  return_ = new QPushButton(tr("Bring back"));
+  away_->setToolTip(tr("Removes the selected networks from the list; the network shown stays shown"));
+  return_ = new QPushButton(tr("Undo remove"));
   return_->setObjectName("bringBack");
-  return_->setToolTip(tr("Those that were taken away last come back to where they were"));
+  return_->setToolTip(tr("Returns the networks removed last to their place in the list"));
   name_ = new QLineEdit;
   name_->setObjectName("networkName");
   name_->setMaxLength(80);
-  name_->setPlaceholderText(tr("a name for the network that is marked (F2)"));
-  name_->setToolTip(tr("The name stands in the list and is saved with the project; a network with a name is never "
-                       "dropped from the list"));
+  name_->setPlaceholderText(tr("Name of the selected network (F2)"));
+  name_->setToolTip(
+      tr("Name in the list, saved with the project; a network with a name is never dropped from the list"));
   auto* nameWords = new QLabel(tr("Name"));
   nameWords->setBuddy(name_);
   auto* buttons = new QHBoxLayout;
@@ -88,7 +86,7 @@ std::set<std::size_t> TrainedNetworks::marked() const {
 /// How many go is said before they do.
 void TrainedNetworks::displayAway() {
   const std::size_t count = marked().size();
-  away_->setText(count > 1 ? tr("Take %1 away").arg(count) : tr("Take away"));
+  away_->setText(count > 1 ? tr("Remove %1").arg(count) : tr("Remove"));
   away_->setEnabled(count > 0);
 }
 
@@ -141,13 +139,12 @@ void TrainedNetworks::display(const NetworkSession& session) {
     name_->setText(typed);
     name_->setModified(true);
   }
-  words_->setText(
-      old && !session.kept().empty()
-          ? tr("These are of an earlier design: going back to one brings its design back, too.")
-          : tr("Every network that was trained, but for those of a sweep and of a comparison, which keep their "
-               "own tables; equal ones stand once. The last %1 stay, and all that have "
-               "a name. Fx, Fy, Fz: RMSE of the test in % of range. Bold: the one that is shown.")
-                .arg(NetworkSession::kKeptNetworks));
+  words_->setText(old && !session.kept().empty()
+                      ? tr("These belong to an earlier design; restoring one restores its design, too.")
+                      : tr("All trained networks except those of sweeps and comparisons, which have their own tables; "
+                           "duplicates are listed once. The last %1 are kept, and all that have a name. Fx, Fy, Fz: "
+                           "test RMSE in % of range. Bold: the network shown.")
+                            .arg(NetworkSession::kKeptNetworks));
 }
 
 } // namespace palp

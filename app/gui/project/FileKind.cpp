@@ -19,7 +19,7 @@ constexpr qint64 kLooked_bytes = 65536;
 
 FileKind fileKind(const QString& file) {
   QFile source(file);
-  if (QFileInfo(file).isDir()) throw Error(file.toStdString() + ": is a folder; a file is needed");
+  if (QFileInfo(file).isDir()) throw Error(file.toStdString() + ": is a folder; expected a file");
   if (!source.open(QIODevice::ReadOnly))
     throw Error(file.toStdString() + ": cannot be read: " + source.errorString().toStdString());
   QByteArray head = source.read(kLooked_bytes);
@@ -46,7 +46,7 @@ void requireKind(const QString& file, FileKind wanted) {
   if (kind == wanted || kind == FileKind::Project) return; // which may be broken JSON
   const QString asked = QObject::tr(kWords.at(static_cast<std::size_t>(wanted)));
   if (kind == FileKind::Foreign)
-    throw Error(QObject::tr("%1: is not %2, nor any other file of Palp").arg(file, asked).toStdString());
+    throw Error(QObject::tr("%1: is neither %2 nor any other Palp file").arg(file, asked).toStdString());
   throw Error(QObject::tr("%1: is %2, not %3")
                   .arg(file, QObject::tr(kWords.at(static_cast<std::size_t>(kind))), asked)
                   .toStdString());
@@ -56,8 +56,8 @@ QString foreignWords(const QString& file) {
   const QString type = QFileInfo(file).size() == 0
                            ? QObject::tr("empty")
                            : QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).comment();
-  return QObject::tr("%1: is no file of Palp's (%2). Allowed is a design, a project, a network or a study "
-                     "(.json), samples (.csv, .h5, .npz) or a recording (.palprec).")
+  return QObject::tr("%1: is not a Palp file (%2). Palp opens designs, projects, networks and studies (.json), samples "
+                     "(.csv, .h5, .npz) and recordings (.palprec). Use palp import for measured data.")
       .arg(file, type);
 }
 

@@ -36,7 +36,7 @@ double hundredthOf(double value) {
 
 std::optional<std::string> whyInvalid(const LoadCase& load, const IndenterPath& path, const SensorDesign& design) {
   if (indenterOf(load, path) == nullptr)
-    return "a path of indenter " + std::to_string(path.indenter) + ", of which there is none";
+    return "a path of indenter " + std::to_string(path.indenter) + ", which does not exist";
   return whyInvalid(allLoads(load, path), design);
 }
 

@@ -15,8 +15,8 @@ QStringList LossQuestion::losses(const Leaving& leaving) const {
 bool acceptsLosses(const QStringList& losses, QWidget* parent) {
   if (losses.isEmpty()) return true;
   QMessageBox question(QMessageBox::Question, QObject::tr("Continue?"),
-                       losses.join("\n\n") + QObject::tr("\n\nContinue all the same?"),
-                       QMessageBox::Yes | QMessageBox::No, parent != nullptr ? parent : QApplication::activeWindow());
+                       losses.join("\n\n") + QObject::tr("\n\nContinue anyway?"), QMessageBox::Yes | QMessageBox::No,
+                       parent != nullptr ? parent : QApplication::activeWindow());
   question.setObjectName("losses");
   question.setDefaultButton(QMessageBox::No);
   return question.exec() == QMessageBox::Yes;

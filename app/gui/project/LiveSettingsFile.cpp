@@ -146,7 +146,7 @@ std::vector<LiveSettings> boardsOf(const JsonPlace& place) {
   std::vector<LiveSettings> boards;
   for (const JsonPlace& board : place.list()) boards.push_back(liveOf(board));
   if (boards.size() >= Project::kMostBoards)
-    place.refuse("at most " + std::to_string(Project::kMostBoards - 1) + " boards beside the first");
+    place.refuse("at most " + std::to_string(Project::kMostBoards - 1) + " further boards");
   return boards;
 }
 

@@ -274,8 +274,7 @@ Project parseProject(const QByteArray& text, const QString& file, const Project&
   const JsonPlace root(json, name);
   if (root.has(kVersionKey)) return projectOf(root, name);
   if (!root.has("palp_design"))
-    throw Error(name +
-                ": neither palp_project nor palp_design is among its keys; allowed is a design or a project file");
+    throw Error(name + ": not a design or project file: expected the key palp_project or palp_design");
   Project project = base;
   project.design = readDesign(root);
   requireBuildable(project.design, name + ": ");
@@ -292,7 +291,7 @@ Project loadProject(const std::filesystem::path& path, const Project& base) {
   QFile file(name);
   if (!file.open(QIODevice::ReadOnly))
     throw Error(path.string() + ": cannot be read (" + file.errorString().toStdString() +
-                "); allowed is a design or project file");
+                "); expected a design or project file");
   return parseProject(file.readAll(), name, base);
 }
 

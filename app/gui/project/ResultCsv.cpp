@@ -28,7 +28,7 @@ QString sourceLines(const ResultSource& source) {
   for (const Indenter& indenter : source.load.indenters)
     text += "# indenter, as an option of palp solve: " + QString::fromStdString(asCommand(indenter)) + "\n";
   const QString mesh = meshOption(source.mesh).trimmed();
-  text += "# mesh " + (mesh.isEmpty() ? QString("as palp makes it by itself") : mesh) + "\n";
+  text += "# mesh " + (mesh.isEmpty() ? QString("default of palp") : mesh) + "\n";
   return text + exportLines({}, source.design, source.stale);
 }
 
@@ -55,7 +55,7 @@ QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& 
   const Eigen::Matrix3Xd still = Eigen::Matrix3Xd::Zero(3, lower.cols());
   const QString lowerWords = design.lowerFollowsRubber
                                  ? "they follow the rubber"
-                                 : "the design holds them still (follows_rubber false), their displacements are 0";
+                                 : "they are fixed in the design (follows_rubber false), their displacements are 0";
   return sourceLines(source) +
          QString("# upper: %1 electrodes of the row-wires; lower: %2 of the column-wires, ")
              .arg(upper.cols())

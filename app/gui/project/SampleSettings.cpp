@@ -33,7 +33,7 @@ TouchRange rangeOf(const TouchSampling& touches, const SensorDesign& design) {
 
 QString countWords(const SampleSettings& samples) {
   return samples.touches ? QObject::tr("%1 touches").arg(samples.touches->count)
-                         : QObject::tr("%1 an area").arg(samples.perArea);
+                         : QObject::tr("%1 per area").arg(samples.perArea);
 }
 
 } // namespace palp

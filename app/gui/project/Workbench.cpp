@@ -35,7 +35,7 @@ public:
 
   void undo() override { go(before_, QObject::tr("Undone: %1")); }
   void redo() override {
-    if (std::exchange(done_, true)) return go(after_, QObject::tr("Done again: %1"));
+    if (std::exchange(done_, true)) return go(after_, QObject::tr("Redone: %1"));
     workbench_.apply(shownAs(after_, workbench_.project()));
   }
   [[nodiscard]] int id() const override { return kMergeId; }

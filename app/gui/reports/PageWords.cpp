@@ -9,8 +9,8 @@ namespace palp {
 
 PageWords::PageWords(QWidget* parent) : QTextBrowser(parent) {
   setObjectName("reportWords");
-  setAccessibleName(tr("Words and tables of the report"));
-  setPlaceholderText(tr("The words and tables of a report stand here when it is done, or chosen in Earlier reports."));
+  setAccessibleName(tr("Text and tables of the report"));
+  setPlaceholderText(tr("Text and tables appear here when a report is done or selected under Earlier reports."));
   setOpenLinks(false);
 }
 

@@ -15,8 +15,8 @@ enum Column { kWhat, kState };
 ReportCases::ReportCases(QWidget* parent) : QTreeWidget(parent) {
   setObjectName("reportCases");
   setAccessibleName(tr("Parts of the report"));
-  setToolTip(tr("What the report runs, in this order, and how long each part takes"));
-  setHeaderLabels({tr("What runs"), tr("Time")});
+  setToolTip(tr("Parts of the report in order, and their durations"));
+  setHeaderLabels({tr("Part"), tr("Time")});
   setRootIsDecorated(false);
   setSelectionMode(QAbstractItemView::NoSelection);
   header()->setStretchLastSection(false);

@@ -54,7 +54,7 @@ QString settingsWords(const QString& folder) {
   const QString command = commandOf(folder);
   QString words;
   if (const auto match = drawn.match(command); match.hasMatch())
-    words += QObject::tr(", %1 samples an area").arg(match.captured(1));
+    words += QObject::tr(", %1 samples per area").arg(match.captured(1));
   if (command.contains(" --design ")) words += QObject::tr(", another design");
   return words;
 }
@@ -77,7 +77,7 @@ QString newReportFolder(const QString& base, const QString& kind, const QDateTim
     if (!QFileInfo::exists(QDir(base).filePath(name))) break;
   }
   throw Error(QDir(base).absoluteFilePath(wanted).toStdString() +
-              ": the folder cannot be made; choose another folder, one that may be written to");
+              ": the folder cannot be created; choose another folder with write permission");
 }
 
 std::vector<WrittenReport> reportsBelow(const QString& base) {
@@ -124,7 +124,7 @@ QString pageFolder(const QString& folder) {
 
 QString studyState(const QString& folder, std::size_t designs) {
   const qsizetype done = QDir(QDir(folder).filePath("rows")).entryList({"*.csv"}, QDir::Files).size();
-  return QObject::tr("%1 of %2 designs are done; Run goes on with the others.").arg(done).arg(designs);
+  return QObject::tr("%1 of %2 designs are done; press Run to continue with the others.").arg(done).arg(designs);
 }
 
 QStringList writtenInto(const QString& folder) {
@@ -143,7 +143,7 @@ QString endWords(ReportRun::Ending how, double seconds, int status, const QStrin
   case ReportRun::Ending::Cancelled:
     if (written == 0) return QObject::tr("Cancelled after %1 s; nothing was written.").arg(time);
     if (QFileInfo::exists(QDir(folder).filePath(kStudyFile)))
-      return QObject::tr("Cancelled after %1 s; %2 designs are done, Run goes on with the others.")
+      return QObject::tr("Cancelled after %1 s; %2 designs are done, press Run to continue with the others.")
           .arg(time)
           .arg(written);
     return QObject::tr("Cancelled after %1 s; %2 of the report's files were already written to %3.")

@@ -19,7 +19,7 @@ std::vector<ReportKind> allKinds() {
   std::vector<ReportKind> all{
       {QObject::tr("reproduce the paper"),
        {"reproduce", "all"},
-       QObject::tr("Table 1, Fig. 12 and the figures of the paper from nothing, the printed numbers beside ours."),
+       QObject::tr("Table 1, Fig. 12 and the figures of the paper from scratch, compared with the printed numbers."),
        protocolParts(3.3)},
       {QObject::tr("reproduce Table 1"),
        {"reproduce", "table1"},
@@ -31,14 +31,14 @@ std::vector<ReportKind> allKinds() {
        protocolParts(3)},
       {QObject::tr("study of many designs"),
        {kStudyKind},
-       QObject::tr("Numbers of the design vary; one row a design in one table, the best designs and a chart of each "
-                   "result over each number. A study that was stopped goes on where it ended."),
+       QObject::tr("Varies parameters of the design: one table with a row per design, the best designs, and a chart of "
+                   "each result over each parameter. A cancelled study can be continued."),
        {{"all designs", 1, 60}}}};
   for (const ReportComputation& report : reportComputations()) {
     QString what = QString::fromStdString(report.what);
     if (!what.isEmpty()) what[0] = what[0].toUpper();
     if (report.name == "networks")
-      what += QObject::tr(": for that, the design's law has to be the conduction field (Design scene).");
+      what += QObject::tr(": the design's law must be the conduction field (Design scene).");
     all.push_back({QString::fromStdString(report.name),
                    {"report", QString::fromStdString(report.name)},
                    what,

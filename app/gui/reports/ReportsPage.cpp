@@ -108,11 +108,12 @@ QLayout* ReportsPage::buildBar() {
     kind_->addItem(kind.title);
     kind_->setItemData(kind_->count() - 1, kind.what, Qt::ToolTipRole);
   }
-  start_ = pushButton(tr("Run"), "runReport", tr("Runs the report beside the window, which stays free"));
-  cancel_ = pushButton(tr("Cancel"), "cancelReport", tr("Stops the report"));
-  openPage_ =
-      pushButton(tr("Open the page"), "openReport", tr("Opens report.html in the browser: one file, no network"));
-  openFolder_ = pushButton(tr("Open the folder"), "openReportFolder", tr("Page, CSV and pictures, to be passed on"));
+  start_ = pushButton(tr("Run"), "runReport", tr("Runs the report in the background"));
+  cancel_ = pushButton(tr("Cancel"), "cancelReport", tr("Cancels the report"));
+  openPage_ = pushButton(tr("Open the page"), "openReport",
+                         tr("Opens report.html in the browser; it is a single file that needs no internet"));
+  openFolder_ =
+      pushButton(tr("Open the folder"), "openReportFolder", tr("Opens the folder with page, CSV and pictures"));
   auto* bar = new QHBoxLayout;
   bar->addWidget(kind_);
   buildSamplesBox();
@@ -129,18 +130,17 @@ QLayout* ReportsPage::buildFolder() {
   target_ = new QLineEdit(QSettings().value(kFolderKey, QDir(documents).filePath("palp-reports")).toString());
   target_->setObjectName("reportFolder");
   target_->setAccessibleName(tr("Folder of all reports"));
-  target_->setToolTip(tr("Where the reports are kept: each run makes a folder of its own in it, named after the report "
-                         "and the time, and leaves all others as they are"));
+  target_->setToolTip(tr("Folder in which reports are saved: each run creates its own folder there, named after the "
+                         "report and the time; existing folders are left unchanged"));
   connect(target_, &QLineEdit::editingFinished, this, &ReportsPage::listReports);
-  auto* choose =
-      pushButton(tr("Folder..."), "chooseReportFolder", tr("Chooses the folder that the reports are kept in"));
+  auto* choose = pushButton(tr("Folder..."), "chooseReportFolder", tr("Selects the folder in which reports are saved"));
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of the reports"), target_->text());
     if (folder.isEmpty()) return;
     target_->setText(folder);
     listReports();
   });
-  auto* words = new QLabel(tr("Kept in"));
+  auto* words = new QLabel(tr("Save to"));
   words->setBuddy(target_);
   auto* row = new QHBoxLayout;
   row->addWidget(words);
@@ -160,7 +160,7 @@ QLayout* ReportsPage::buildState() {
   state_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard); // paths are copied
   state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
   showNew_ = pushButton(tr("Show the new report"), "showNewReport",
-                        tr("The report that is done just now, in place of the one that is shown"));
+                        tr("Shows the report that has just finished instead of the selected one"));
   showNew_->hide();
   auto* state = new QHBoxLayout;
   state->addWidget(bar_);
@@ -176,7 +176,7 @@ QWidget* ReportsPage::buildViews() {
   log_->setAccessibleName(tr("Messages of the report"));
   log_->setReadOnly(true);
   log_->setLineWrapMode(QPlainTextEdit::NoWrap); // tables
-  log_->setPlaceholderText(tr("What the report says while it runs."));
+  log_->setPlaceholderText(tr("Messages of the report while it runs."));
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   written_ = new WrittenReports;
   pictures_ = new QListWidget;
@@ -186,10 +186,10 @@ QWidget* ReportsPage::buildViews() {
   picture_ = new ReportPicture(tr("Pictures of the report appear here."));
   tabs_ = new QTabWidget;
   tabs_->setObjectName("reportTabs");
-  tabs_->addTab(cases_, tr("What runs"));
+  tabs_->addTab(cases_, tr("Parts"));
   tabs_->addTab(log_, tr("Messages"));
   pageWords_ = new PageWords;
-  tabs_->addTab(pageWords_, tr("Words and tables"));
+  tabs_->addTab(pageWords_, tr("Text and tables"));
   tabs_->addTab(written_, tr("Earlier reports"));
   auto* left = new QSplitter(Qt::Vertical);
   left->setObjectName("reportsLeft");
@@ -274,7 +274,8 @@ void ReportsPage::end(ReportRun::Ending how) {
   if (!done) cases_->stop();
   state_->setText(
       how == ReportRun::Ending::NotStarted
-          ? tr("%1 cannot be started; it is built together with this program and lies beside it.").arg(program_)
+          ? tr("%1 cannot be started; it is built together with this program and must be in the same folder.")
+                .arg(program_)
           : endWords(how, run_.seconds(), run_.status(), runFolder_));
   emit message(tr("Report %1: %2").arg(QDir(runFolder_).dirName(), state_->text()));
   if (how == ReportRun::Ending::NoResult || how == ReportRun::Ending::Failed) tabs_->setCurrentWidget(log_);
@@ -310,9 +311,9 @@ void ReportsPage::listReports() {
 void ReportsPage::showWritten(const QString& folder) {
   const bool running = run_.running(); // its kind, its time and what it says stay in sight
   if (QFileInfo::exists(QDir(folder).filePath(kStudyFile)))
-    return running ? say(tr("A study that was stopped can go on when this report is done.")) : showUnfinished(folder);
+    return running ? say(tr("A cancelled study can be continued when this report is done.")) : showUnfinished(folder);
   if (!QFileInfo::exists(QDir(folder).filePath(kPage))) {
-    say(tr("%1 is not there any more.").arg(folder));
+    say(tr("%1 no longer exists.").arg(folder));
     listReports();
     return;
   }
@@ -320,7 +321,7 @@ void ReportsPage::showWritten(const QString& folder) {
   note_.clear();
   if (running) return showFolder(folder, true);
   const QString messages = messagesIn(folder);
-  log_->setPlainText(messages.isEmpty() ? tr("%1 holds no messages of its run.").arg(folder) : messages);
+  log_->setPlainText(messages.isEmpty() ? tr("%1 contains no messages of its run.").arg(folder) : messages);
   chooseKindOf(folder);
   showFolder(folder, true);
   state_->setText(tr("Shown again: %1").arg(QDir(folder).filePath(kPage)));
@@ -328,16 +329,15 @@ void ReportsPage::showWritten(const QString& folder) {
 
 void ReportsPage::openStudy(const QString& file) {
   const StudyPlan plan = loadStudy(file.toStdString());
-  if (running()) throw Error("a report runs; a study can be opened when it is done");
+  if (running()) throw Error("a report is running; open the study when it is done");
   kind_->setCurrentIndex(studyIndex());
   study_->show(plan);
 }
 
 QString ReportsPage::endsWords() const {
-  return isStudy()
-             ? tr("A study is running: quitting stops it; the designs that are done are kept, and it goes on from "
-                  "Earlier reports.")
-             : tr("A report is running: quitting stops it, and nothing of it is kept.");
+  return isStudy() ? tr("A study is running and will be cancelled; finished designs are kept, and it can be continued "
+                        "from Earlier reports.")
+                   : tr("A report is running and will be cancelled; its results are lost.");
 }
 
 /// Its form again, so that Run goes on with it.
@@ -365,7 +365,7 @@ void ReportsPage::showFolder(const QString& folder, bool page) {
   if (pictures_->count() > 0)
     pictures_->setCurrentRow(0);
   else if (page)
-    picture_->say(tr("This report draws no pictures. It said:\n\n%1").arg(messagesIn(folder)));
+    picture_->say(tr("This report has no pictures. Its messages:\n\n%1").arg(messagesIn(folder)));
 }
 
 void ReportsPage::say(const QString& sentence) {
@@ -380,8 +380,8 @@ void ReportsPage::say(const QString& sentence) {
 /// The desktop does not say whether a program came up, so the path is always said.
 void ReportsPage::openOnDesktop(const QString& path, const QString& what) {
   const bool asked = QDesktopServices::openUrl(QUrl::fromLocalFile(path));
-  say(asked ? tr("%1 was given to the desktop to show; where nothing comes up, open it yourself: %2").arg(what, path)
-            : tr("Nothing on this machine shows it; open it with a program of yours. %1 is %2").arg(what, path));
+  say(asked ? tr("Opened %1 in your default application. If nothing appears, open %2.").arg(what, path)
+            : tr("No application on this computer opens %1; open it yourself: %2").arg(what, path));
 }
 
 double ReportsPage::left_s() const {
@@ -390,7 +390,7 @@ double ReportsPage::left_s() const {
 
 void ReportsPage::showTime() {
   const QString left = share_ < 1 ? roughly(left_s()) : QString();
-  state_->setText(tr("Running for %1 s; the window stays free.").arg(static_cast<int>(run_.seconds())) +
+  state_->setText(tr("Running for %1 s.").arg(static_cast<int>(run_.seconds())) +
                   (left.isEmpty() ? QString() : tr(" About %1 left.").arg(left)) +
                   (note_.isEmpty() ? QString() : " " + note_));
   emit runs(tr("Report %1: %2 %").arg(QDir(runFolder_).dirName()).arg(qRound(100 * share_)) +

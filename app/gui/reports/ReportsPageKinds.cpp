@@ -53,8 +53,8 @@ void ReportsPage::buildSamplesBox() {
   perArea_->setRange(5, 100000);
   perArea_->setKeyboardTracking(false);
   perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue); // 1 is 5, not what it was
-  perArea_->setPrefix(tr("samples on each area: "));
-  perArea_->setToolTip(tr("Random forces on each area, which the report draws for itself; 5 or more"));
+  perArea_->setPrefix(tr("Samples per area: "));
+  perArea_->setToolTip(tr("Number of random forces on each area that the report generates; 5 or more"));
   connect(perArea_, &QSpinBox::valueChanged, this, [this](int perArea) {
     Project next = workbench_.project();
     next.view.reportPerArea = perArea;
@@ -80,10 +80,9 @@ void ReportsPage::chooseKind() {
   if (last_s) plan_->setSeconds(*last_s); // its report lies in the list
   cases_->show(*plan_);
   state_->setText(tr("Takes about %1%2.")
-                      .arg(roughly(plan_->seconds()),
-                           plan_->measuredHere()
-                               ? tr(", as the last time on this machine")
-                               : tr(", by what such reports take; not yet run here with these settings")));
+                      .arg(roughly(plan_->seconds()), plan_->measuredHere()
+                                                          ? tr(", as in the last run on this machine")
+                                                          : tr(" (estimate; never run here with these settings)")));
 }
 
 /// Another design or law since: what a report runs, and for how long, is other too.
@@ -98,12 +97,12 @@ void ReportsPage::planStudy() {
   try {
     const StudyPlan study = study_->plan();
     parts.front().seconds = studySeconds(study);
-    state_->setText(tr("%1 designs, about %2; better known after the first.")
+    state_->setText(tr("%1 designs, about %2 (a better estimate follows after the first).")
                         .arg(study.designs())
                         .arg(roughly(parts.front().seconds)));
     start_->setEnabled(true);
   } catch (const Error&) {
-    state_->setText(tr("No study yet: what is in red above.")); // the form says it
+    state_->setText(tr("No study yet: see the error above.")); // the form says it
     start_->setEnabled(false);
   }
   plan_ = std::make_unique<ReportPlan>(kStudyKind, parts);

@@ -71,14 +71,14 @@ struct QuantityWords {
 };
 /// In the order of kStudyQuantities.
 constexpr std::array<QuantityWords, 4> kQuantityWords{{
-    {QT_TRANSLATE_NOOP("palp::StudyForm", "noise floor"),
+    {QT_TRANSLATE_NOOP("palp::StudyForm", "Noise floor"),
      QT_TRANSLATE_NOOP("palp::StudyForm", "Cramer-Rao bound of the force, all row-wires, by area, in % of the range")},
-    {QT_TRANSLATE_NOOP("palp::StudyForm", "decoders' errors"),
+    {QT_TRANSLATE_NOOP("palp::StudyForm", "Errors of decoders"),
      QT_TRANSLATE_NOOP("palp::StudyForm", "Errors of decoders on fresh samples with noise, in % of the range")},
-    {QT_TRANSLATE_NOOP("palp::StudyForm", "largest displacement"),
-     QT_TRANSLATE_NOOP("palp::StudyForm", "Under the largest load on area 0")},
-    {QT_TRANSLATE_NOOP("palp::StudyForm", "error of the mesh"),
-     QT_TRANSLATE_NOOP("palp::StudyForm", "Estimated error of the mesh in that solve")},
+    {QT_TRANSLATE_NOOP("palp::StudyForm", "Largest displacement"),
+     QT_TRANSLATE_NOOP("palp::StudyForm", "Largest displacement under the largest load on area 0")},
+    {QT_TRANSLATE_NOOP("palp::StudyForm", "Error of the mesh"),
+     QT_TRANSLATE_NOOP("palp::StudyForm", "Estimated discretisation error of that solve")},
 }};
 
 } // namespace
@@ -110,25 +110,26 @@ void StudyForm::build() {
 QWidget* StudyForm::buildSettings() {
   base_ = new QComboBox;
   base_->setObjectName("studyDesign");
-  base_->setAccessibleName(tr("Design that is varied"));
-  base_->setToolTip(tr("Which design is varied, on which mesh: that of the project, or that of the study's file"));
-  base_->addItem(tr("the project's design"));
+  base_->setAccessibleName(tr("Base design"));
+  base_->setToolTip(tr("Design whose parameters vary, and its mesh: that of the project, or that of the study file"));
+  base_->addItem(tr("The project's design"));
   plan_ = new QComboBox;
   plan_->setObjectName("studyPlan");
-  plan_->setAccessibleName(tr("Which designs"));
-  plan_->setToolTip(tr("Every combination of all values, or a Latin hypercube: a number of designs, one in each of as "
-                       "many strata of every number"));
-  plan_->addItems({tr("every combination"), tr("Latin hypercube of")});
+  plan_->setAccessibleName(tr("Designs"));
+  plan_->setToolTip(tr("Every combination of all values, or a Latin hypercube: a given number of designs, one in each "
+                       "of as many strata of every parameter"));
+  plan_->addItems({tr("Every combination"), tr("Latin hypercube of")});
   points_ = spin("studyPoints", 2, 1'000'000, 20, tr("Designs of the hypercube"), tr("Designs of the Latin hypercube"));
-  seed_ = spin("studySeed", 0, std::numeric_limits<int>::max(), 1, tr("Seed"), tr("Of everything that is random"));
-  auto* openFile = pushButton("openStudy", tr("Open..."), tr("Opens the file of a study"));
-  auto* saveFile = pushButton("saveStudy", tr("Save..."), tr("Saves it as a file for palp study and palp cluster"));
+  seed_ = spin("studySeed", 0, std::numeric_limits<int>::max(), 1, tr("Seed"), tr("Seed of all random numbers"));
+  auto* openFile = pushButton("openStudy", tr("Open..."), tr("Opens a study file"));
+  auto* saveFile =
+      pushButton("saveStudy", tr("Save..."), tr("Saves the study as a file for palp study and palp cluster"));
   connect(openFile, &QPushButton::clicked, this, &StudyForm::open);
   connect(saveFile, &QPushButton::clicked, this, &StudyForm::save);
   connect(base_, &QComboBox::currentIndexChanged, this, &StudyForm::check);
   connect(plan_, &QComboBox::currentIndexChanged, this, &StudyForm::check);
   for (QSpinBox* box : {points_, seed_}) connect(box, &QSpinBox::valueChanged, this, &StudyForm::check);
-  return rowOf({new QLabel(tr("Vary")), base_, plan_, points_, new QLabel(tr("seed")), seed_, openFile, saveFile});
+  return rowOf({new QLabel(tr("Vary")), base_, plan_, points_, new QLabel(tr("Seed")), seed_, openFile, saveFile});
 }
 
 QWidget* StudyForm::buildAxes() {
@@ -136,7 +137,7 @@ QWidget* StudyForm::buildAxes() {
   axesColumn_ = new QVBoxLayout(inside);
   axesColumn_->setContentsMargins(0, 0, 0, 0);
   axesColumn_->setSpacing(2);
-  auto* more = pushButton("addStudyKey", tr("Another number"), tr("One more number of the design that varies"));
+  auto* more = pushButton("addStudyKey", tr("Add parameter"), tr("Adds a parameter of the design that varies"));
   connect(more, &QPushButton::clicked, this, [this] {
     for (const std::string& key : studyKeys(design())) {
       const QString name = QString::fromStdString(key);
@@ -159,7 +160,7 @@ QWidget* StudyForm::buildAxes() {
 }
 
 QWidget* StudyForm::buildQuantities() {
-  std::vector<QWidget*> row{new QLabel(tr("Work out"))};
+  std::vector<QWidget*> row{new QLabel(tr("Compute"))};
   for (const auto& [quantity, name] : kStudyQuantities.all()) {
     const QuantityWords& words = kQuantityWords.at(quantities_.size());
     auto* box = new QCheckBox(tr(words.name));
@@ -173,27 +174,28 @@ QWidget* StudyForm::buildQuantities() {
   decoders_ = new QLineEdit("rbf");
   decoders_->setObjectName("studyDecoders");
   decoders_->setAccessibleName(tr("Decoders"));
-  decoders_->setToolTip(tr("By name, with commas between: %1").arg(QString::fromStdString(kDecoderKinds.allowed())));
-  perArea_ = spin("studyPerArea", 5, 100'000, 20, tr("Samples an area"),
-                  tr("Samples of training on each area, and as many of testing"));
+  decoders_->setToolTip(
+      tr("Names of the decoders, separated by commas: %1").arg(QString::fromStdString(kDecoderKinds.allowed())));
+  perArea_ = spin("studyPerArea", 5, 100'000, 20, tr("Samples per area"),
+                  tr("Number of training samples on each area, and as many again for testing"));
   noise_ = new QLineEdit("1e-4");
   noise_->setObjectName("studyNoise");
   noise_->setAccessibleName(tr("Noise"));
-  noise_->setToolTip(tr("Of each resistance, as a share of it"));
+  noise_->setToolTip(tr("Relative noise of each resistance"));
   noise_->setMaximumWidth(80);
   for (QLineEdit* edit : {decoders_, noise_}) connect(edit, &QLineEdit::textChanged, this, &StudyForm::check);
   connect(perArea_, &QSpinBox::valueChanged, this, &StudyForm::check);
-  for (QWidget* more : std::initializer_list<QWidget*>{new QLabel(tr("noise")), noise_, new QLabel(tr("decoders")),
-                                                       decoders_, new QLabel(tr("samples an area")), perArea_})
+  for (QWidget* more : std::initializer_list<QWidget*>{new QLabel(tr("Noise")), noise_, new QLabel(tr("Decoders")),
+                                                       decoders_, new QLabel(tr("Samples per area")), perArea_})
     row.push_back(more);
   return rowOf(row);
 }
 
 QWidget* StudyForm::buildResult() {
-  chosen_ =
-      spin("studyChosen", 0, 0, 0, tr("Number of the design"), tr("As the first column of the table counts them"));
-  take_ = pushButton("takeStudyDesign", tr("Take it over"),
-                     tr("Makes this design of the study the project's; undo brings the old one back"));
+  chosen_ = spin("studyChosen", 0, 0, 0, tr("Number of the design"),
+                 tr("Number of the design in the first column of the table"));
+  take_ = pushButton("takeStudyDesign", tr("Use this design"),
+                     tr("Makes this design of the study the project's design; this can be undone"));
   connect(take_, &QPushButton::clicked, this, &StudyForm::takeOver);
   result_ = rowOf({new QLabel(tr("Design number")), chosen_, take_});
   return result_;
@@ -229,20 +231,19 @@ void StudyForm::listKeys() {
 void StudyForm::addAxis(const QString& key, const QString& values) {
   Axis axis;
   axis.key = new QComboBox;
-  axis.key->setAccessibleName(tr("Number that varies"));
-  axis.key->setToolTip(
-      tr("A key of the design's file; numbers are offered, others (as lower_layer.follows_rubber, or a "
-         "whole list of wires) may be typed"));
+  axis.key->setAccessibleName(tr("Parameter"));
+  axis.key->setToolTip(tr("Key in the design file; numeric keys are listed, others (such as "
+                          "lower_layer.follows_rubber, or a complete list of wires) can be typed"));
   axis.key->setEditable(true);
   axis.key->setMinimumWidth(260);
   axis.values = new QLineEdit(values);
   axis.values->setAccessibleName(tr("Values"));
-  axis.values->setToolTip(tr("A range, 3..6 x 4, or by equal factors, 0.1..10 x 5 log; or a list, 3, 4.5, 6. A Latin "
-                             "hypercube needs no count"));
+  axis.values->setToolTip(tr("A range, 3..6 x 4, or with equal factors, 0.1..10 x 5 log; or a list, 3, 4.5, 6. A Latin "
+                             "hypercube needs no count."));
   auto* away = new QToolButton;
   away->setText("x");
-  away->setAccessibleName(tr("Take away"));
-  away->setToolTip(tr("This number does not vary"));
+  away->setAccessibleName(tr("Remove"));
+  away->setToolTip(tr("Removes this parameter from the study"));
   axis.row = rowOf({axis.key, axis.values, away}, false);
   static_cast<QHBoxLayout*>(axis.row->layout())->setStretch(1, 1);
   connect(axis.key, &QComboBox::currentTextChanged, this, &StudyForm::check);
@@ -297,7 +298,7 @@ StudyPlan StudyForm::plan() const {
     for (const QString& name : decoders_->text().split(','))
       plan.decoders.push_back(kDecoderKinds.value(name.trimmed().toStdString()));
   const auto noise = typedNumber(noise_->text());
-  if (!noise) throw Error("noise: '" + noise_->text().toStdString() + "'; allowed is a number from 1e-9 to 0.5");
+  if (!noise) throw Error("noise: '" + noise_->text().toStdString() + "'; expected a number from 1e-9 to 0.5");
   plan.noise = *noise;
   plan.perArea = perArea_->value();
   plan.meshSize_mm = ofFile ? opened_->meshSize_mm : workbench_.project().mesh.meshSize_mm;
@@ -309,7 +310,7 @@ void StudyForm::show(const StudyPlan& plan) {
   showing_ = true;
   opened_ = plan;
   openedDesign_ = parseDesign(plan.design, "study");
-  if (base_->count() == kOfTheFile) base_->addItem(tr("the study file's design"));
+  if (base_->count() == kOfTheFile) base_->addItem(tr("The study file's design"));
   base_->setCurrentIndex(kOfTheFile);
   for (const Axis& axis : axes_) delete axis.row;
   axes_.clear();

@@ -13,7 +13,7 @@ constexpr int kFolderRole = Qt::UserRole;
 WrittenReports::WrittenReports(QWidget* parent) : QListWidget(parent) {
   setObjectName("writtenReports");
   setAccessibleName(tr("Earlier reports"));
-  setToolTip(tr("The reports in the folder; a click shows one again, or goes on with a study that was stopped"));
+  setToolTip(tr("Reports in the folder; a click shows a report or continues a cancelled study"));
   const auto choose = [this](const QListWidgetItem* item) { emit chosen(item->data(kFolderRole).toString()); };
   connect(this, &QListWidget::itemActivated, this, choose);
   connect(this, &QListWidget::itemClicked, this, choose);

@@ -41,7 +41,8 @@ CurrentWay::CurrentWay(FieldTouch& field, QObject* parent) : QObject(parent), fi
   });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || !wanted_ || lines_) return;
-    problem_ = tr("The current's way was not computed: stopped. Another cell, or another scene and back, computes it.");
+    problem_ = tr("Computation of the current paths was cancelled. Select another cell, or another scene and back, to "
+                  "restart it.");
     emit changed();
   });
 }
@@ -60,7 +61,7 @@ void CurrentWay::want(const Touch& touch, double loadFraction, const std::array<
   runner_.start(tr("Following the current"),
                 [this, touch, loadFraction, found, cell, before = field_.field(touch)](
                     const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
-                  progress.set(-1, "The current's way in the block");
+                  progress.set(-1, "Current paths in the block");
                   const auto field = before ? before : std::make_shared<const ConductionField>(*touch.problem());
                   const auto lines = linesOf(touch, loadFraction, *found, *field, cell, stop);
                   if (!lines) return {};

@@ -70,8 +70,8 @@ ChartSpec rowWireShapeChart(const SensorDesign& design, const ElectrodeDisplacem
   const Eigen::Matrix3Xd moved = displacements.upper_mm.middleCols(rowWire * count, count);
   const double factor = automaticWarpFactor(design, moved);
   ChartSpec spec;
-  spec.title = "Row-wire " + std::to_string(rowWire) + " seen along y, displacements drawn " + shortText(factor) +
-               " times as large";
+  spec.title =
+      "Row-wire " + std::to_string(rowWire) + " seen along y, displacements enlarged " + shortText(factor) + " times";
   spec.xLabel = "x [mm]";
   spec.yLabel = "z [mm]";
   for (const bool loaded : {false, true}) {
@@ -139,7 +139,7 @@ ChartSpec LinePlot::chart(const Mesh& mesh, const NodalFields& fields, const Vie
       ends_ = {view.lineFrom_mm, view.lineTo_mm};
     } catch (const Error&) {
       probe_.reset();
-      spec.title = "The line leaves the block: choose ends inside of it";
+      spec.title = "The line leaves the block: choose end points inside of it";
       return spec;
     }
   }
@@ -150,7 +150,7 @@ ChartSpec LinePlot::chart(const Mesh& mesh, const NodalFields& fields, const Vie
   if (kept == nullptr) return spec;
   spec.series[0].name = "this design";
   spec.series.push_back(curve(*kept));
-  spec.series[1].name = "the kept design";
+  spec.series[1].name = "reference design";
   spec.series[1].color = 1;
   spec.series[1].dashed = true;
   return spec;

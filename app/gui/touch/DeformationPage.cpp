@@ -66,7 +66,7 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     const std::array cell{rowWire, columnWire};
     view.litCell = view.litCell == cell ? std::nullopt : std::optional(cell);
     view.cell = cell; // the Resistance scene opens with it
-    editView(tr("Light the electrodes of a cell"), view);
+    editView(tr("Highlight the electrodes of a cell"), view);
   });
   connect(tabs_, &TouchTabs::lineShownChanged, this, [this] { drawBlock(false); });
   connect(block_, &BlockView::nodeClicked, this, &DeformationPage::clicked);
@@ -80,13 +80,13 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(result_, &ResultPanel::uniformAsked, this, [this](bool on) {
     ViewSettings view = workbench_.project().view;
     view.lessKept = view.uniform = on;
-    editView(tr("Compare with the force uniform"), view);
+    editView(tr("Compare with uniform load"), view);
   });
   connect(block_, &BlockView::cutDragged, this, [this](double at_mm) {
     ViewSettings view = workbench_.project().view;
     if (!view.cut) return;
     view.cut->at_mm = at_mm;
-    editView(tr("Drag the cut"), view);
+    editView(tr("Move the cut"), view);
   });
   connect(block_, &BlockView::forceDragged, this, &DeformationPage::setForce);
   connect(result_, &ResultPanel::estimateAsked, this, [this] { workbench_.touch().estimateError(); });
@@ -127,9 +127,8 @@ QWidget* DeformationPage::buildViews() {
   block_->setObjectName("block");
   block_->setForcesMovable(true);
   new StaleNote(*block_, workbench_);
-  block_->setToolTip(
-      tr("Drag an arrow: force (Shift: its size alone); drag: turn; Shift or middle button: move; wheel: "
-         "zoom; double click: all of it; right click: picture"));
+  block_->setToolTip(tr("Drag an arrow: force (Shift: magnitude only); drag: rotate; Shift or middle button: pan; "
+                        "wheel: zoom; double click: show all; right click: picture"));
   column->addWidget(buildClicks());
   column->addWidget(block_, 1);
   path_ = new LoadPathBar(workbench_.touch());
@@ -156,16 +155,16 @@ QWidget* DeformationPage::buildClicks() {
   };
   const std::array<Choice, 5> choices{
       {{Click::Probe, "clickProbe", Qt::Key_P, tr("Probe"),
-        tr("A click reads displacement [mm] and stress [MPa] at a point")},
+        tr("Click to read displacement [mm] and stress [MPa] at a point")},
        {Click::Load, "clickLoad", Qt::Key_A, tr("Press an area"),
-        tr("A click on the top face chooses its load area, and loads it")},
+        tr("Click on the top face to select its load area and load it")},
        {Click::Disc, "clickDisc", Qt::Key_D, tr("Press a disc"),
-        tr("A click on the top face makes a round load; drag it to move it, its rim to size it; Shift-click takes it "
-           "away")},
+        tr("Click on the top face to add a round load; drag it to move it, drag its rim to resize it, Shift-click to "
+           "remove it")},
        {Click::Indenter, "clickIndenter", Qt::Key_I, tr("Indenter"),
-        tr("A click on the top face presses with a rigid body there; drag it to move it, its rim to size it, its arrow "
-           "to press harder; Ctrl-drag draws a path that it slides along; Shift-click takes it away")},
-       {Click::Line, "clickLine", Qt::Key_L, tr("Line"), tr("Two clicks are the ends of a line to plot along")}}};
+        tr("Click on the top face to press with a rigid body there; drag it to move it, drag its rim to resize it, "
+           "drag its arrow to press harder, Ctrl-drag to draw a sliding path, Shift-click to remove it")},
+       {Click::Line, "clickLine", Qt::Key_L, tr("Line"), tr("Click twice to set the ends of a line to plot along")}}};
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(0, 0, 0, 2);
@@ -346,7 +345,7 @@ void DeformationPage::addLineEnd(int node) {
   lineStart_ = -1;
   block_->markNode(-1);
   editView(tr("Change the line"), view);
-  emit message(tr("The line is plotted under \"Along a line\"; two more clicks draw another one."));
+  emit message(tr("The line is plotted under \"Along a line\"; two more clicks set another line."));
 }
 
 void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {

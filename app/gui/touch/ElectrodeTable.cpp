@@ -25,7 +25,7 @@ public:
     layers_[0] = {tr("upper"), design.electrodesPerRowWire(), design.upperElectrodes_mm(), displacements.upper_mm};
     layers_[1] = {tr("lower"), design.electrodesPerColumnWire(), design.lowerElectrodes_mm(), displacements.lower_mm};
     if (!design.lowerFollowsRubber) {
-      layers_[1].name = tr("lower, held");
+      layers_[1].name = tr("lower, fixed");
       layers_[1].moved_mm.setZero();
     }
     const auto count = static_cast<int>(layers_[0].rest_mm.cols() + layers_[1].rest_mm.cols());
@@ -76,7 +76,7 @@ ElectrodeTable::ElectrodeTable(QWidget* parent) : QTableView(parent), rows_(new 
   setObjectName("electrodeTable");
   setModel(rows_);
   setSelectionMode(QAbstractItemView::ContiguousSelection);
-  setToolTip(tr("Where each electrode rests and how it moves; mark cells and copy them with Ctrl+C"));
+  setToolTip(tr("Position of each electrode at rest and its displacement; select cells and copy them with Ctrl+C"));
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + kRowGap_px);
   verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
@@ -84,7 +84,7 @@ ElectrodeTable::ElectrodeTable(QWidget* parent) : QTableView(parent), rows_(new 
   heads.setSectionResizeMode(QHeaderView::ResizeToContents);
   heads.setResizeContentsPrecision(0); // of the rows that are seen
   heads.setSectionResizeMode(0, QHeaderView::Interactive);
-  heads.resizeSection(0, fontMetrics().horizontalAdvance(tr("lower, held")) + kColumnGap_px);
+  heads.resizeSection(0, fontMetrics().horizontalAdvance(tr("lower, fixed")) + kColumnGap_px);
 }
 
 void ElectrodeTable::show(const SensorDesign& design, const ElectrodeDisplacements& displacements) {

@@ -37,32 +37,32 @@ std::optional<FilmSettings> askForFilm(QWidget* parent, const QSize& view) {
   auto* form = new QFormLayout(&dialog);
   auto* kind = new QComboBox;
   kind->setObjectName("filmKind");
-  kind->addItems({QObject::tr("animated GIF"), QObject::tr("numbered PNG pictures in a folder")});
+  kind->addItems({QObject::tr("Animated GIF"), QObject::tr("Numbered PNG pictures in a folder")});
   kind->setCurrentIndex(kept.value("film/gif", usual.gif).toBool() ? 0 : 1);
-  kind->setToolTip(QObject::tr("A GIF plays in slides and browsers at once, with 256 colours; of PNG pictures another "
-                               "program makes a film in full colour"));
+  kind->setToolTip(QObject::tr("A GIF plays directly in slides and browsers, with 256 colours. Numbered PNG pictures "
+                               "can be turned into a full-colour video with another program."));
   auto* pictures = new WholeBox;
   pictures->setObjectName("filmPictures");
   pictures->setRange(2, 500);
   pictures->setValue(kept.value("film/pictures", usual.pictures).toInt());
-  pictures->setToolTip(QObject::tr("From rest to the full load, in equal steps of the load"));
+  pictures->setToolTip(QObject::tr("Number of pictures from rest to the full load, in equal steps of the load"));
   auto* width = new WholeBox;
   width->setObjectName("filmWidth");
   width->setRange(100, 3840);
   width->setSuffix(QObject::tr(" px"));
   width->setValue(kept.value("film/width", usual.width_px).toInt());
-  width->setToolTip(QObject::tr("The pictures have the shape of the view"));
+  width->setToolTip(QObject::tr("Width of the pictures, which have the shape of the view"));
   auto* seconds = new NumberBox;
   seconds->setObjectName("filmSeconds");
   seconds->setRange(0.5, 120);
   seconds->setDecimals(1);
   seconds->setSuffix(QObject::tr(" s"));
   seconds->setValue(kept.value("film/seconds", usual.seconds).toDouble());
-  seconds->setToolTip(QObject::tr("How long the film lasts before it begins again"));
+  seconds->setToolTip(QObject::tr("Duration of the film before it repeats"));
   auto* words = new QLabel;
   words->setObjectName("filmWords");
   words->setWordWrap(true);
-  form->addRow(QObject::tr("Make"), kind);
+  form->addRow(QObject::tr("Create"), kind);
   form->addRow(QObject::tr("Pictures"), pictures);
   form->addRow(QObject::tr("Width"), width);
   form->addRow(QObject::tr("Length"), seconds);
@@ -73,11 +73,13 @@ std::optional<FilmSettings> askForFilm(QWidget* parent, const QSize& view) {
   const auto say = [&] {
     const double rate = pictures->value() / seconds->value();
     const bool quick = kind->currentIndex() == 0 && rate > kMostASecond;
-    const QString size = QObject::tr("%1 x %2 pixels, %3 pictures a second.")
+    const QString size = QObject::tr("%1 x %2 pixels, %3 pictures per second.")
                              .arg(width->value())
                              .arg(filmHeight_px(width->value(), view))
                              .arg(rate, 0, 'g', 3);
-    words->setText(quick ? size + QObject::tr(" A GIF shows at most 50 a second: fewer pictures, or longer.") : size);
+    words->setText(
+        quick ? size + QObject::tr(" A GIF shows at most 50 per second: use fewer pictures or a longer duration.")
+              : size);
     buttons->button(QDialogButtonBox::Ok)->setEnabled(!quick);
   };
   QObject::connect(kind, &QComboBox::currentIndexChanged, &dialog, say);

@@ -28,7 +28,7 @@ QComboBox* LawBar::add(const QString& key) {
     box->addItem(choice.words);
     box->setItemData(box->count() - 1, choice.tip, Qt::ToolTipRole);
   }
-  box->setToolTip(field.tip + tr("; the numbers stand in the Design scene"));
+  box->setToolTip(field.tip + tr("; its parameters are on the Design scene"));
   box->setAccessibleName(field.group + ", " + field.label);
   connect(box, &QComboBox::currentIndexChanged, this, [this, box, &field] {
     SensorDesign next = design_;

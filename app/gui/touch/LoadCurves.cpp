@@ -14,7 +14,7 @@ constexpr std::size_t kFewSteps = 3; ///< too few for the shape of a curve
 std::string stepWords(const Solution& solution) {
   const std::size_t steps = solution.increments.size() - 1;
   return ", " + std::to_string(steps) + (steps == 1 ? " load step" : " load steps") +
-         (steps < kFewSteps ? ": straight between" : "");
+         (steps < kFewSteps ? ": line interpolated" : "");
 }
 
 Eigen::Vector3d loadForce_N(const Touch& touch, const LoadIncrement& state) {
@@ -40,8 +40,8 @@ ChartSeries loadCurve(const std::string& name, int color) {
 ChartSpec reactionChart(const Touch& touch) {
   ChartSpec spec;
   spec.title = "Reaction along the load";
-  spec.xLabel = "share of the load; above 1 steps of its path";
-  spec.yLabel = "reaction of the bottom [N]";
+  spec.xLabel = "load fraction (0 to 1), then path step";
+  spec.yLabel = "reaction at the bottom [N]";
   const Solution* solution = touch.solution();
   if (solution == nullptr) return spec;
   spec.title += stepWords(*solution);

@@ -111,8 +111,8 @@ QString filmSentence(const LoadPathAnimation::Settings& settings) {
         .arg(settings.frames)
         .arg(settings.seconds)
         .arg(static_cast<double>(std::filesystem::file_size(settings.gif)) / 1e6, 0, 'g', 2);
-  return QObject::tr("Wrote %1 pictures, %2. A program such as ffmpeg makes one film of them, in their folder: ffmpeg "
-                     "-framerate %3 -i ")
+  return QObject::tr("Wrote %1 pictures, %2. A program such as ffmpeg turns them into a film; run in their folder: "
+                     "ffmpeg -framerate %3 -i ")
              .arg(settings.frames)
              .arg(QString::fromStdString((settings.folder / "load-*.png").string()))
              .arg(settings.frames / settings.seconds, 0, 'g', 4) +

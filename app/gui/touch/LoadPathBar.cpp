@@ -29,11 +29,11 @@ LoadPathBar::LoadPathBar(TouchSession& session, QWidget* parent) : QWidget(paren
   play_->setText(tr("Play"));
   play_->setCheckable(true);
   play_->setShortcut(Qt::CTRL | Qt::Key_Space);
-  play_->setToolTip(tr("Plays the load from rest to its full size (key Ctrl+Space); as a film: File, Film of the load "
-                       "path"));
-  loop_ = new QCheckBox(tr("loop"));
+  play_->setToolTip(
+      tr("Plays the load from rest to its full size (Ctrl+Space); File, Film of the load path saves it as a film"));
+  loop_ = new QCheckBox(tr("Loop"));
   loop_->setObjectName("loopPath");
-  loop_->setToolTip(tr("Begins again at rest"));
+  loop_->setToolTip(tr("Restarts the playback at rest when it ends"));
   words_ = new QLabel;
   words_->setObjectName("pathWords");
   slider_ = new QSlider(Qt::Horizontal);
@@ -62,9 +62,10 @@ void LoadPathBar::display() {
   if (const Solution* solution = session_.touch().solution())
     for (const LoadIncrement& state : solution->increments)
       computed << QString::number(100 * state.loadFraction, 'g', 3);
-  slider_->setToolTip(
-      tr("The way from rest to the full load%1. Computed are the equilibria at %2 %; between them it is linear.")
-          .arg(last > 100 ? tr(", and a hundred a step of the path after it") : QString(), computed.join(", ")));
+  slider_->setToolTip(tr("Load from rest to the full load%1. Equilibria are computed at %2 %; between them the "
+                         "displacements are interpolated linearly.")
+                          .arg(last > 100 ? tr(", followed by 100 positions for each step of the path") : QString(),
+                               computed.join(", ")));
 }
 
 void LoadPathBar::hideEvent(QHideEvent* event) {

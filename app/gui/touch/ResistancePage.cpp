@@ -62,7 +62,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   auto* third = new QWidget;
   auto* around = new QVBoxLayout(third);
   around->setContentsMargins(0, 0, 0, 0);
-  currentWay_ = new QCheckBox(tr("current's way"));
+  currentWay_ = new QCheckBox(tr("Current paths"));
   currentWay_->setObjectName("currentWay");
   paths_ = new QLabel;
   paths_->setObjectName("currentPaths");
@@ -96,7 +96,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
     const ColorScale& colors = heatmap_->heatmap().colors;
     view.resistanceRange =
         on && heatmap_->heatmap().values.size() > 0 ? std::optional(std::array{colors.low, colors.high}) : std::nullopt;
-    edit(tr("Keep the colour scale"), view);
+    edit(tr("Fix the colour scale"), view);
   });
   for (HeatmapView* map : {heatmap_, pairs_}) {
     connect(map, &HeatmapView::cellHovered, this, [this](const std::optional<std::array<int, 2>>& cell) {
@@ -111,7 +111,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   connect(currentWay_, &QCheckBox::toggled, this, [this](bool on) {
     ViewSettings view = workbench_.project().view;
     view.currentWay = on;
-    edit(tr("Show the current's way"), view);
+    edit(tr("Show the current paths"), view);
   });
   connect(law_, &LawBar::edited, this, [this](const QString& what, const SensorDesign& design) {
     Project next = workbench_.project();
@@ -144,10 +144,11 @@ void ResistancePage::displayProject() {
   const QSignalBlocker quietFixed(fixed_);
   auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessKept));
   less->setEnabled(comparable());
-  less->setText(workbench_.project().view.uniform ? tr("dR/R less the force uniform [%]")
-                                                  : tr("dR/R less the kept design's [%]"));
-  less->setToolTip(comparable() ? tr("Under the same load, in percent of the resistance at rest")
-                                : tr("Nothing with as many wires is kept: Design, Compare, \"Keep this design\""));
+  less->setText(workbench_.project().view.uniform ? tr("dR/R minus uniform load [%]")
+                                                  : tr("dR/R minus reference design [%]"));
+  less->setToolTip(comparable()
+                       ? tr("Difference under the same load, in percent of the resistance at rest")
+                       : tr("There is no reference design with as many wires: Design, Compare, \"Set as reference\""));
   kind_->setCurrentIndex(static_cast<int>(kind()));
   fixed_->setChecked(view.resistanceRange.has_value());
   const QSignalBlocker quietWay(currentWay_);
@@ -155,10 +156,10 @@ void ResistancePage::displayProject() {
   currentWay_->setEnabled(field);
   currentWay_->setChecked(field && view.currentWay);
   currentWay_->setToolTip(
-      field ? tr("Follows the current through the block while the chosen cell is read: each line carries the same "
-                 "current, colours are its density for 1 A driven into the row-wire")
-            : tr("By Eq. (1) every pair of electrodes is a resistor of its own: it knows no current in the rubber. The "
-                 "conduction field does"));
+      field ? tr("Follows the current through the block while the selected cell is read: each line carries the same "
+                 "current, and colours show the current density for 1 A driven into the row-wire")
+            : tr("By Eq. (1) every pair of electrodes is an independent resistor, so there is no current field in the "
+                 "rubber. Select the conduction field to see current paths."));
   if (!(view == drawn_) || view.resistance == ResistanceKind::LessKept) draw(false);
 }
 
@@ -191,13 +192,15 @@ QWidget* ResistancePage::buildBar() {
   kind_ = new QComboBox;
   kind_->setObjectName("resistanceKind");
   kind_->addItems(
-      {tr("R [ohm]"), tr("change dR [ohm]"), tr("relative change dR/R [%]"), tr("dR/R less the kept design's [%]")});
-  kind_->setToolTip(tr("R of a row-wire and a column-wire by the law of the design; changes against rest"));
-  fixed_ = new QCheckBox(tr("keep this colour scale"));
+      {tr("R [ohm]"), tr("Change dR [ohm]"), tr("Relative change dR/R [%]"), tr("dR/R minus reference design [%]")});
+  kind_->setToolTip(
+      tr("Resistance between a row-wire and a column-wire by the law of the design; changes are relative to rest"));
+  fixed_ = new QCheckBox(tr("Fix colour scale"));
   fixed_->setObjectName("fixedScale");
-  fixed_->setToolTip(tr("The colours keep their range when the load changes"));
+  fixed_->setToolTip(tr("Keeps the range of the colours when the load changes"));
   reading_ = new QLabel;
-  reading_->setToolTip(tr("Of the cell under the pointer, else of the chosen one; click on a cell to choose it"));
+  reading_->setToolTip(
+      tr("Resistance of the cell under the pointer, otherwise of the selected cell; click on a cell to select it"));
   reading_->setObjectName("reading");
   row->addWidget(new QLabel(tr("Show")));
   row->addWidget(kind_);
@@ -286,7 +289,7 @@ void ResistancePage::drawBeside() {
   const TouchResistances pairs = *resistancesOf(design, *workbench_.touch().electrodes());
   laws_->setText(lawsWords(*resistances_, pairs));
   HeatmapSpec spec = resistanceHeatmap(pairs, kind());
-  spec.title = tr("The same by Eq. (1), rate 1000 ohm/mm; a colour scale of its own").toStdString();
+  spec.title = tr("The same by Eq. (1), rate 1000 ohm/mm, with its own colour scale").toStdString();
   spec.selected = cell();
   pairs_->setHeatmap(std::move(spec));
 }
@@ -300,14 +303,13 @@ HeatmapSpec ResistancePage::heatmap() const {
     return shown;
   }
   HeatmapSpec none;
-  none.title =
-      (keptProblem().isEmpty() ? tr("What is compared with is being computed...") : keptProblem()).toStdString();
+  none.title = (keptProblem().isEmpty() ? tr("The comparison is being computed...") : keptProblem()).toStdString();
   const auto kept = workbench_.keptResistances();
   if (!kept) return none;
   const HeatmapSpec less = resistanceHeatmap(*kept, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();
   return alike ? heatmapLess(shown.values - less.values,
-                             workbench_.project().view.uniform ? "the force uniform" : "the kept design's")
+                             workbench_.project().view.uniform ? "uniform load" : "reference design")
                : none; // else the touch is still of the design before
 }
 

@@ -45,9 +45,9 @@ ChartSpec curveChart(const HeatmapSpec& heatmap, const std::string& title, const
 
 QString lawsWords(const TouchResistances& field, const TouchResistances& pairs) {
   const Eigen::VectorXd a = logChanges(field), b = logChanges(pairs);
-  if (!(a.norm() > 0 && b.norm() > 0)) return QObject::tr("Nothing changes.");
-  return QObject::tr("Against Eq. (1), over all readings: changes of ln R are %1 times as large, correlation %2. The "
-                     "rubber conducts alike in all directions, also where it is deformed.")
+  if (!(a.norm() > 0 && b.norm() > 0)) return QObject::tr("No resistance changes.");
+  return QObject::tr("Compared with Eq. (1), over all readings: changes of ln R are %1 times as large, correlation %2. "
+                     "The rubber's conductivity is isotropic, also where it is deformed.")
       .arg(QString::number(a.norm() / b.norm(), 'g', 3), QString::number(a.dot(b) / (a.norm() * b.norm()), 'f', 2));
 }
 
@@ -71,9 +71,8 @@ QString cellNumbers(const TouchResistances& resistances, const std::array<int, 2
 
 QString pathWords(const TerminalNetwork& network, Readout readout, const std::array<int, 2>& cell) {
   const CurrentPaths paths = currentPaths(network, NetworkReading(network, readout), cell[0], cell[1]);
-  return QObject::tr(
-             "Of each ampere into row-wire %1, %2 % go through the rubber straight to column-wire %3; %4 A cross "
-             "the metal of other wires.")
+  return QObject::tr("%2 % of the current from row-wire %1 flows directly through the rubber to column-wire %3; per "
+                     "ampere, %4 A pass through the metal of other wires.")
       .arg(cell[0])
       .arg(QString::number(100 * paths.straight, 'f', 1))
       .arg(cell[1])

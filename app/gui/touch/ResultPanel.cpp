@@ -40,12 +40,13 @@ QString contactWords(const Indenter& indenter, int index, const IndenterState& n
   QString words =
       QObject::tr("Indenter %1: %2 N, moved by %3 mm").arg(index).arg(triple(now.force_N), triple(now.translation_mm));
   if (!(now.contactArea_mm2 > 0)) return words + ".";
-  words += QObject::tr("; contact radius %1 mm, area %2 mm<sup>2</sup>, %3 MPa in its centre")
+  words += QObject::tr("; contact radius %1 mm, area %2 mm<sup>2</sup>, %3 MPa at its centre")
                .arg(number(now.contactRadius_mm, 3), number(now.contactArea_mm2, 3), number(now.centrePressure_MPa, 3));
-  if (indenter.friction > 0) words += QObject::tr("; %1 % of it slips").arg(number(100 * now.slipShare, 3));
+  if (indenter.friction > 0) words += QObject::tr("; %1 % of the contact slips").arg(number(100 * now.slipShare, 3));
   if (now.touchingNodes < kFewTouchingNodes)
-    words += QObject::tr(". <b>Only %1 nodes of the mesh touch it: depth and contact are wrong; take a finer mesh</b>")
-                 .arg(now.touchingNodes);
+    words +=
+        QObject::tr(". <b>Only %1 nodes of the mesh are in contact: depth and contact are wrong; use a finer mesh</b>")
+            .arg(now.touchingNodes);
   return words + ".";
 }
 
@@ -58,12 +59,13 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   result_->setObjectName("result");
   estimate_ = new QPushButton(tr("Estimate the discretisation error"));
   estimate_->setObjectName("estimate");
-  estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the electrodes' displacements"));
-  uniform_ = new QPushButton(tr("Compare with the force uniform"));
+  estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the displacements of the electrodes"));
+  uniform_ = new QPushButton(tr("Compare with uniform load"));
   uniform_->setObjectName("compareUniform");
   uniform_->setCheckable(true);
-  uniform_->setToolTip(tr("Colours by what the touch does more than the same force spread evenly over the load area "
-                          "beneath it, as the paper presses; the Resistance scene compares with it too"));
+  uniform_->setToolTip(
+      tr("Colours the block by the difference between this touch and the same force spread uniformly over the load "
+         "area beneath it, as in the paper; the Resistance scene shows the same comparison"));
   uniform_->hide();
   probe_ = new QLabel;
   probe_->setObjectName("probe");
@@ -105,7 +107,7 @@ void ResultPanel::display(const TouchSession& session) {
   for (const IndenterState& its : solution->state().indenters) load_N += its.force_N;
   lines << tr("Load %1 N, reaction at the bottom %2 N.").arg(triple(load_N), triple(solution->reaction_N));
   const bool between = session.place() != session.lastPlace();
-  if (between) lines.last() += tr(" (at the end; shown is %1)").arg(loadPlaceWords(session.loadFraction()));
+  if (between) lines.last() += tr(" (at the end; shown: %1)").arg(loadPlaceWords(session.loadFraction()));
   for (std::size_t k = 0; k < session.indenters().size(); ++k)
     lines << contactWords(touch.load().indenters[k], static_cast<int>(k), session.indenters()[k]);
   const QString how = QString::fromStdString(solution->stopReason);
@@ -119,7 +121,7 @@ void ResultPanel::display(const TouchSession& session) {
                .arg(touch.problem()->dof());
   lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
   lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
-  if (!session.upToDate()) lines << tr("<i>Design, load or mesh have changed; this is the result before.</i>");
+  if (!session.upToDate()) lines << tr("<i>Outdated: this result belongs to the previous design, load or mesh.</i>");
   result_->setText(lines.join("<br>"));
   fitHeight(*result_);
 }
@@ -133,9 +135,9 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
   uniform_->setChecked(uniform && project.view.lessKept);
   difference_->setVisible(shown);
   if (!shown) return;
-  const QString title = uniform ? tr("Less the force uniform") : tr("Less the kept design");
+  const QString title = uniform ? tr("Difference from uniform load") : tr("Difference from the reference design");
   if (kept == nullptr) {
-    difference_->setText(problem.isEmpty() ? tr("<b>%1:</b> being computed...").arg(title)
+    difference_->setText(problem.isEmpty() ? tr("<b>%1:</b> computing...").arg(title)
                                            : tr("<b>%1:</b> %2.").arg(title, problem));
   } else {
     const Quantity quantity = project.view.quantity;
@@ -149,7 +151,7 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
     QString match = uniform ? tr("uniform: %1").arg(pressedWords(kept->load))
                             : matchWords(session.touch().load(), session.touch().design(), kept->design);
     if (!match.isEmpty()) match[0] = match[0].toUpper();
-    difference_->setText(tr("<b>%1:</b> %2 differs most at %3 mm: by %4 %7 (%5, there %6).")
+    difference_->setText(tr("<b>%1:</b> %2 differs most at %3 mm: by %4 %7 (%5 instead of %6).")
                              .arg(title, QString::fromStdString(quantityName(quantity)),
                                   triple(session.touch().mesh()->nodes_mm.col(node)), number(*most), number(now),
                                   number(now - *most), unit) +

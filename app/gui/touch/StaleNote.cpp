@@ -37,13 +37,11 @@ void StaleNote::display() {
   then.mesh = touch.touch().meshOptions();
   if (touch.touch().path() != loadsAfter(then.load, then.path, then.design)) then.path.reset();
   const QString since = sinceWords(then, workbench_.project());
-  const QString result =
-      since.isEmpty() ? tr("This is the result before") : tr("This is the result before (%1)").arg(since);
+  const QString result = since.isEmpty() ? tr("Previous result") : tr("Previous result (%1)").arg(since);
   if (nothing)
-    setText(running ? tr("Being computed...") : tr("Not computed yet."));
+    setText(running ? tr("Computing...") : tr("Not computed yet."));
   else
-    setText(running ? tr("%1; the new one is being computed...").arg(result)
-                    : tr("%1; the new one is not computed.").arg(result));
+    setText(running ? tr("%1. Computing...").arg(result) : tr("%1. Not computed yet.").arg(result));
   adjustSize();
   move((parentWidget()->width() - width()) / 2, parentWidget()->height() - height() - 8);
 }

@@ -68,8 +68,8 @@ TouchTabs::TouchTabs(Workbench& workbench, QWidget* parent)
   linePage_ = buildLine();
   addTab(linePage_, tr("Along a line"));
   addTab(buildLoad(), tr("Along the load"));
-  setTabToolTip(count() - 1, tr("Reaction of the bottom and force against displacement, at every equilibrium that was "
-                                "computed on the way to the load and on its path"));
+  setTabToolTip(count() - 1, tr("Reaction at the bottom and force against displacement, at every equilibrium computed "
+                                "along the load and its path"));
   connect(this, &QTabWidget::currentChanged, this, [this] {
     draw();
     emit lineShownChanged();
@@ -131,7 +131,7 @@ QWidget* TouchTabs::buildLine() {
     ends_[k] = new QLineEdit;
     ends_[k]->setObjectName(kNames[k]);
     ends_[k]->setMaximumWidth(150);
-    ends_[k]->setToolTip(tr("A point of the block at rest; or choose Line above and click on both ends"));
+    ends_[k]->setToolTip(tr("End of the line at rest; the tool Line sets both ends by clicks on the block"));
     side->addWidget(ends_[k]);
     connect(ends_[k], &QLineEdit::editingFinished, this, &TouchTabs::readLine);
   }
@@ -158,7 +158,7 @@ void TouchTabs::readLine() {
   const auto to = placeOf(ends_[1]->text());
   if (!from || !to) {
     ChartSpec refusal;
-    refusal.title = tr("Write three numbers with commas between them, as 0, 15, 5").toStdString();
+    refusal.title = tr("Enter three numbers separated by commas, for example 0, 15, 5").toStdString();
     line_->setChart(refusal);
     return;
   }

@@ -34,16 +34,19 @@ ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   buildColors(*form);
-  lessKept_ = box(*form, tr("less the kept design"), "lessKept", false, {});
+  lessKept_ = box(*form, tr("Difference from reference design"), "lessKept", false, {});
   buildWarp(*form);
   buildCut(*form);
-  extremes_ = box(*form, tr("largest and smallest value"), "extremes", false,
-                  tr("Marks both at their places; in a block that is cut open, those of what stays"));
-  ghost_ = box(*form, tr("block at rest"), "ghost", true, tr("Edges of the block before the load"));
-  electrodes_ = box(*form, tr("electrodes and wires"), "electrodes", true, tr("Looks through the rubber"));
-  arrows_ = box(*form, tr("force arrows"), "arrows", true, tr("Forces of the loads, with their components in N"));
-  outlines_ = box(*form, tr("load areas"), "outlines", true, tr("Borders and numbers of the load areas"));
-  edges_ = box(*form, tr("mesh"), "edges", false, tr("Edges of the finite elements"));
+  extremes_ =
+      box(*form, tr("Largest and smallest value"), "extremes", false,
+          tr("Marks the positions of the largest and the smallest value; in a cut block, those of the visible part"));
+  ghost_ = box(*form, tr("Block at rest"), "ghost", true, tr("Shows the edges of the undeformed block"));
+  electrodes_ = box(*form, tr("Electrodes and wires"), "electrodes", true,
+                    tr("Makes the rubber transparent to show the electrodes and wires"));
+  arrows_ =
+      box(*form, tr("Force arrows"), "arrows", true, tr("Shows the forces of the loads with their components in N"));
+  outlines_ = box(*form, tr("Load areas"), "outlines", true, tr("Shows borders and numbers of the load areas"));
+  edges_ = box(*form, tr("Mesh"), "edges", false, tr("Shows the edges of the finite elements"));
 
   connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::chooseQuantity);
   for (QComboBox* list : {colorMap_, cut_}) connect(list, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
@@ -62,23 +65,24 @@ void ViewPanel::buildColors(QFormLayout& form) {
     quantity_->addItem(QString::fromStdString(quantityName(quantity)) + (unit.isEmpty() ? "" : " [" + unit + "]"));
   }
   quantity_->setToolTip(
-      tr("Displacements in mm, pressure (compression positive) and Cauchy stress in MPa; J - 1 is the "
-         "change of volume, 0 in ideal rubber; principal stretches are 1 at rest"));
+      tr("Quantity that colours the block. Displacements are in mm, pressure (compression positive) and Cauchy stress "
+         "in MPa; J - 1 is the change of volume, 0 in ideal rubber; principal stretches are 1 at rest."));
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   quantity_->setMinimumContentsLength(10);
   form.addRow(tr("Colour by"), quantity_);
   colorMap_ = new QComboBox;
   colorMap_->setObjectName("colorMap");
-  colorMap_->addItem(tr("as suits it"));
+  colorMap_->addItem(tr("Automatic"));
   for (const auto& [map, name] : kColorMaps.all()) colorMap_->addItem(name);
-  colorMap_->setToolTip(tr("Equal steps of the value look equally large in all of them"));
+  colorMap_->setToolTip(tr("Colour map of the quantity. All colour maps are perceptually uniform: equal steps of the "
+                           "value look equally large."));
   form.addRow(tr("Colours"), colorMap_);
   auto* row = new QHBoxLayout;
   for (std::size_t k = 0; k < 2; ++k) {
     range_[k] = new NumberBox;
     range_[k]->setObjectName(k == 0 ? "rangeFrom" : "rangeTo");
     range_[k]->setAccessibleName(k == 0 ? tr("Legend from") : tr("Legend to"));
-    range_[k]->setToolTip(tr("Values at the ends of the legend; what lies beyond has the last colour"));
+    range_[k]->setToolTip(tr("Values at the ends of the legend; values beyond have the colour of the end"));
     range_[k]->setDecimals(4);
     range_[k]->setRange(-1e6, 1e6);
     range_[k]->setSingleStep(0.01);
@@ -88,9 +92,9 @@ void ViewPanel::buildColors(QFormLayout& form) {
     range_[k]->setMinimumWidth(kNarrow_px);
     row->addWidget(range_[k], 1);
   }
-  keepRange_ = new QCheckBox(tr("keep this range"));
+  keepRange_ = new QCheckBox(tr("Fix range"));
   keepRange_->setObjectName("keepRange");
-  keepRange_->setToolTip(tr("The legend keeps this range whatever the load; else it fits the full load"));
+  keepRange_->setToolTip(tr("Keeps the range of the legend when the load changes; otherwise it fits the full load"));
   form.addRow(tr("Legend"), row);
   form.addRow(QString(), keepRange_);
 }
@@ -104,28 +108,28 @@ void ViewPanel::buildWarp(QFormLayout& form) {
   warp_->setEnabled(false);
   warp_->setMinimumWidth(kNarrow_px);
   warp_->setKeyboardTracking(false);
-  warp_->setToolTip(tr("Factor by which displacements are drawn larger; 1 is true size"));
-  automaticWarp_ = new QCheckBox(tr("automatic"));
+  warp_->setToolTip(tr("Factor by which displacements are drawn enlarged; 1 is true size"));
+  automaticWarp_ = new QCheckBox(tr("Automatic"));
   automaticWarp_->setObjectName("automaticWarp");
   automaticWarp_->setChecked(true);
   auto* row = new QHBoxLayout;
   row->addWidget(warp_);
   row->addWidget(automaticWarp_);
-  form.addRow(tr("Warp"), row);
+  form.addRow(new QLabel(tr("Deformation scale"))); // above its row: at its left it would narrow all of them
+  form.addRow(QString(), row);
 }
 
 void ViewPanel::buildCut(QFormLayout& form) {
   cut_ = new QComboBox;
   cut_->setObjectName("cut");
-  cut_->addItems({tr("none"), tr("across x"), tr("across y"), tr("across z")});
-  cut_->setToolTip(
-      tr("Takes away what lies before a plane, to look into the block; in the picture its knob is dragged"));
+  cut_->addItems({tr("None"), tr("Across x"), tr("Across y"), tr("Across z")});
+  cut_->setToolTip(tr("Clips the block at a plane to show its inside. Drag the handle in the view to move it."));
   cutAt_ = new NumberBox;
   cutAt_->setObjectName("cutAt");
-  cutAt_->setAccessibleName(tr("Place of the cut"));
+  cutAt_->setAccessibleName(tr("Position of the cut"));
   cutAt_->setSuffix(tr(" mm"));
   cutAt_->setKeyboardTracking(false);
-  cutAt_->setToolTip(tr("Place of the cut [mm]"));
+  cutAt_->setToolTip(tr("Position of the cut [mm]"));
   cutAt_->setEnabled(false);
   cutAt_->setMinimumWidth(kNarrow_px);
   auto* row = new QHBoxLayout;
@@ -203,9 +207,10 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   colorMap_->setCurrentIndex(map);
   lessKept_->setEnabled(somethingKept);
   lessKept_->setChecked(view.lessKept && somethingKept && !view.uniform);
-  lessKept_->setToolTip(somethingKept
-                            ? tr("Colours by the difference to the kept design under the same load, point by point")
-                            : tr("Nothing is kept to compare with: Design, Compare, \"Keep this design\""));
+  lessKept_->setToolTip(
+      somethingKept
+          ? tr("Colours the block by the difference from the reference design under the same load, point by point")
+          : tr("There is no reference design to compare with: Design, Compare, \"Set as reference\""));
   const auto& range = view_.shownRange();
   keepRange_->setChecked(range.has_value());
   if (range)

@@ -110,7 +110,7 @@ void ChartView::paintEvent(QPaintEvent* event) {
   if (!empty()) return paintReading(painter);
   painter.setPen(QWidget::palette().color(QPalette::PlaceholderText));
   const QString title = QString::fromStdString(spec_.title);
-  painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("nothing yet") : title + tr(":\nnothing yet"));
+  painter.drawText(rect(), Qt::AlignCenter, title.isEmpty() ? tr("no data yet") : title + tr(":\nno data yet"));
 }
 
 void ChartView::fill() {

@@ -34,7 +34,8 @@ public:
 DataTable::DataTable(const QString& file, QWidget* parent) : QTableWidget(parent), file_(file) {
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionMode(QAbstractItemView::ContiguousSelection);
-  setToolTip(tr("Mark cells and copy them with Ctrl+C; a click on a head sorts; a right click saves all of it as CSV"));
+  setToolTip(
+      tr("Select cells and copy them with Ctrl+C; click a column head to sort; right click to save the table as CSV"));
   verticalHeader()->hide();
   horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   horizontalHeader()->setSectionsClickable(true);
@@ -131,8 +132,8 @@ void DataTable::keyPressEvent(QKeyEvent* event) {
 
 void DataTable::contextMenuEvent(QContextMenuEvent* event) {
   QMenu menu(this);
-  menu.addAction(selectedRanges().isEmpty() ? tr("Copy all") : tr("Copy what is marked"), this, &DataTable::copy);
-  menu.addAction(tr("Mark all"), this, &QTableWidget::selectAll);
+  menu.addAction(selectedRanges().isEmpty() ? tr("Copy all") : tr("Copy selection"), this, &DataTable::copy);
+  menu.addAction(tr("Select all"), this, &QTableWidget::selectAll);
   menu.addAction(tr("Save as CSV..."), this, [this] {
     const QString written = offerCsv(this, file_, csv());
     if (!written.isEmpty()) emit message(tr("Wrote %1.").arg(written));

@@ -22,7 +22,7 @@ HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplac
 
 HeatmapSpec noResistancesYet(const QString& problem) {
   HeatmapSpec none;
-  none.title = (problem.isEmpty() ? QObject::tr("The conduction field is being computed...") : problem).toStdString();
+  none.title = (problem.isEmpty() ? QObject::tr("Computing the conduction field...") : problem).toStdString();
   return none;
 }
 
@@ -58,7 +58,7 @@ HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKin
 
 HeatmapSpec heatmapLess(const Eigen::MatrixXd& difference_percent, const std::string& whose) {
   HeatmapSpec spec;
-  spec.title = "dR/R less " + whose + ", same load";
+  spec.title = "dR/R minus " + whose + ", same load";
   spec.values = difference_percent;
   spec.colors = scaleOf(spec.values, ColorMap::Diverging, "difference", "%");
   return spec;

@@ -236,8 +236,9 @@ QSize PictureView::askSize(const QSize& now) {
   if (words.isEmpty()) return {};
   const QSize size = parts.size() == 2 ? QSize(parts[0].trimmed().toInt(), parts[1].trimmed().toInt()) : QSize();
   if (size.width() >= 1 && size.height() >= 1 && size.width() <= 16384 && size.height() <= 16384) return size;
-  QMessageBox::warning(this, tr("Save picture"),
-                       tr("\"%1\" is no size; write two numbers from 1 to 16384, as 1600 x 900.").arg(words));
+  QMessageBox::warning(
+      this, tr("Save picture"),
+      tr("\"%1\" is not a size; enter two numbers from 1 to 16384, for example 1600 x 900.").arg(words));
   return {};
 }
 

@@ -46,7 +46,7 @@ SceneExport::SceneExport(QObject* parent) : QObject(parent) {}
 
 void SceneExport::ask(QWidget& scene) {
   if (running()) {
-    emit done(tr("Charts and tables are still being written; export these when that has ended."));
+    emit done(tr("Charts and tables are still being written; export these afterwards."));
     return;
   }
   if (worthSaving(scene).empty() && filesOf(scene).isEmpty()) {
@@ -59,9 +59,10 @@ void SceneExport::ask(QWidget& scene) {
   const QDir there(folder);
   if (there.exists() && !there.isEmpty())
     QMessageBox::warning(&scene, tr("Export all charts and tables"),
-                         tr("%1 holds files already; choose the name of a new folder.").arg(folder));
+                         tr("%1 already contains files; enter the name of a new folder.").arg(folder));
   else if (!QDir().mkpath(folder))
-    QMessageBox::warning(&scene, tr("Export all charts and tables"), tr("%1: cannot be made as a folder").arg(folder));
+    QMessageBox::warning(&scene, tr("Export all charts and tables"),
+                         tr("%1: the folder cannot be created").arg(folder));
   else
     write(scene, folder);
 }

@@ -45,9 +45,8 @@ StripChart::StripChart(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
-  setToolTip(
-      tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: let it run again. Keys: + and - "
-         "zoom, with Shift in value; arrows move; Ctrl and left or right move the cursor"));
+  setToolTip(tr("Wheel: zoom in time, with Ctrl in value; drag: move; double click or Esc: resume. Keys: + and - zoom, "
+                "with Shift in value; arrows move; Ctrl with left or right moves the cursor"));
   setMinimumSize(180, 110);
 }
 
@@ -142,7 +141,7 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
   painter.setPen(text);
   painter.drawText(QRectF(plot.left(), plot.bottom() + line + 3, plot.width(), line + 2), Qt::AlignCenter,
                    (spec_.zero_s ? tr("time in the recording [s]") : tr("time before the last frame [s]")) +
-                       (held_ ? tr(", held: double click lets it run") : QString()));
+                       (held_ ? tr(", frozen: double click to resume") : QString()));
   painter.save();
   const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
   const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
@@ -336,7 +335,7 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
       text += QString::fromUtf8(" \u00b1 %1").arg(series.deviation[place], 0, 'g', 2);
     lines.push_back({series.name, std::isfinite(value) ? text + unit() : text, series.color});
   }
-  if (const StripDoubt* doubt = doubtAt(t_s)) lines.push_back({tr("doubted"), doubt->why, {}});
+  if (const StripDoubt* doubt = doubtAt(t_s)) lines.push_back({tr("implausible"), doubt->why, {}});
   for (const auto& [mark_s, text] : spec_.marks)
     if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) lines.push_back({tr("mark"), text, {}});
   return lines;

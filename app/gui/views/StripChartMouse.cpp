@@ -233,7 +233,7 @@ void StripChart::saveCsv() {
   const QString file = askFileToSave(this, tr("Save values"), "curves.csv", tr("Tables (*.csv)"));
   if (file.isEmpty()) return;
   write(file, (sourceOf(*this) + table).toUtf8(),
-        tr("Wrote the %2 times that are seen to %1.").arg(file).arg(table.count('\n') - 1));
+        tr("Wrote the %2 visible times to %1.").arg(file).arg(table.count('\n') - 1));
 }
 
 void StripChart::savePdf() {
@@ -259,7 +259,7 @@ void StripChart::contextMenuEvent(QContextMenuEvent* event) {
   const QAction* save = menu.addAction(tr("Save picture..."));
   const QAction* pdf = menu.addAction(tr("Save picture as PDF..."));
   const QAction* values = menu.addAction(tr("Save values (CSV)..."));
-  QAction* run = menu.addAction(tr("Let it run again"));
+  QAction* run = menu.addAction(tr("Resume"));
   run->setEnabled(held_);
   const QAction* chosen = menu.exec(event->globalPos());
   if (chosen == nullptr) return;

@@ -23,7 +23,7 @@ ViewBar::ViewBar(BlockView& view, QWidget* parent) : QWidget(parent) {
     row->addWidget(button);
     return button;
   };
-  connect(add("viewHome", tr("home"), Qt::Key_H, tr("From the front, above and the left, as at first")),
+  connect(add("viewHome", tr("Home"), Qt::Key_H, tr("Initial view: from the front, above and the left")),
           &QToolButton::clicked, &view, [&view] { view.resetCamera(); });
   struct Side {
     const char* name;
@@ -37,7 +37,7 @@ ViewBar::ViewBar(BlockView& view, QWidget* parent) : QWidget(parent) {
                                    {"+z", Qt::Key_Z, {0, 0, 1}},
                                    {"-z", Qt::SHIFT | Qt::Key_Z, {0, 0, -1}}}};
   for (const Side& side : sides)
-    connect(add(QString("view") + side.name, side.name, side.key, tr("Straight from %1").arg(side.name)),
+    connect(add(QString("view") + side.name, side.name, side.key, tr("View from %1").arg(side.name)),
             &QToolButton::clicked, &view, [&view, from = side.from] { view.lookAlong(-from); });
 }
 

@@ -65,7 +65,7 @@ template <class Box> QString TypedBox<Box>::typedIn(const QString& text) const {
 
 template <class Box> QString TypedBox<Box>::whyNot(const QString& typed) const {
   const auto value = read(typed);
-  if (!value) return QObject::tr("\"%1\" is not a number that this box takes").arg(typed);
+  if (!value) return QObject::tr("\"%1\" is not a valid number for this box").arg(typed);
   if (*value >= this->minimum() && *value <= this->maximum()) return {};
   return QObject::tr("%1 is outside %2 to %3%4")
       .arg(typed, this->textFromValue(this->minimum()), this->textFromValue(this->maximum()), this->suffix());
@@ -84,7 +84,7 @@ template <class Box> void TypedBox<Box>::fixup(QString& text) const {
       special ? this->specialValueText() : this->prefix() + this->textFromValue(value) + this->suffix();
   if (!typed.isEmpty()) // an empty box is no mistake
     sayNotApplied(const_cast<TypedBox&>(*this),
-                  QObject::tr("Not applied: %1; the value stays %2").arg(whyNot(typed), kept.trimmed()));
+                  QObject::tr("Not applied: %1. The value is still %2").arg(whyNot(typed), kept.trimmed()));
   text = kept;
 }
 
@@ -109,7 +109,7 @@ QString NumberBox::whyNot(const QString& typed) const {
   if (QString why = TypedBox::whyNot(typed); !why.isEmpty()) return why;
   const double value = *read(typed), rounded = QString::number(value, 'f', decimals()).toDouble();
   if (std::abs(rounded - value) <= 1e-12 * std::abs(value)) return {};
-  return QObject::tr("%1 has more than the %2 decimals of this box").arg(typed).arg(decimals());
+  return QObject::tr("%1 has more decimals than the %2 of this box").arg(typed).arg(decimals());
 }
 
 std::optional<int> WholeBox::read(const QString& typed) const {
@@ -134,7 +134,7 @@ QString PercentBox::textFromValue(double value) const {
 
 QString percentWords(double share) {
   if (!(share > 0)) return QObject::tr("none");
-  return QObject::tr("%1 % (a share of %2)").arg(100 * share, 0, 'g', 6).arg(share, 0, 'g', 6);
+  return QObject::tr("%1 % (%2 ppm)").arg(100 * share, 0, 'g', 6).arg(1e6 * share, 0, 'g', 6);
 }
 
 void showExactly(QDoubleSpinBox& box, double value) {

@@ -36,9 +36,9 @@ bool Application::notify(QObject* receiver, QEvent* event) {
   } catch (const std::exception& fault) {
     what = QString::fromStdString(fault.what());
   } catch (...) {
-    what = tr("it gave no reason");
+    what = tr("unknown error");
   }
-  std::cerr << "palp-studio: something failed: " << what.toStdString() << std::endl;
+  std::cerr << "palp-studio: internal error: " << what.toStdString() << std::endl;
   emit faulted(what);
   return true; // the event is spent
 }
@@ -46,13 +46,13 @@ bool Application::notify(QObject* receiver, QEvent* event) {
 void showFault(QWidget& window, const QString& what) {
   auto* box = window.findChild<QMessageBox*>("fault");
   if (box == nullptr) {
-    box = new QMessageBox(QMessageBox::Warning, QObject::tr("Something failed"), {}, QMessageBox::Ok, &window);
+    box = new QMessageBox(QMessageBox::Warning, QObject::tr("Internal error"), {}, QMessageBox::Ok, &window);
     box->setObjectName("fault");
     box->setModal(false);
   }
-  box->setText(QObject::tr("Something failed: %1").arg(what));
+  box->setText(QObject::tr("Internal error: %1").arg(what));
   box->setInformativeText(
-      QObject::tr("Save the project now (File, Save as, under another name), then restart the program."));
+      QObject::tr("Save the project now (File, Save project as, under another name), then restart the program."));
   box->show();
 }
 

@@ -23,7 +23,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   words_ = new QToolButton;
   words_->setObjectName("jobWords");
   words_->setAutoRaise(true);
-  words_->setToolTip(tr("Shows the scene in which this is done"));
+  words_->setToolTip(tr("Shows the scene of this computation"));
   connect(words_, &QToolButton::clicked, this, &JobStrip::sceneAsked);
   bar_ = new QProgressBar;
   bar_->setFixedWidth(140);
@@ -31,7 +31,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   bar_->setTextVisible(false);
   cancel_ = new QPushButton(tr("Cancel"));
   cancel_->setObjectName("cancel");
-  cancel_->setToolTip(tr("Stops the work; the last good result stays (Esc)"));
+  cancel_->setToolTip(tr("Cancels the computation; the last good result is kept (Esc)"));
   row->addWidget(words_);
   row->addWidget(bar_);
   row->addWidget(cancel_);
@@ -55,7 +55,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   connect(&runner, &JobRunner::finished, this, [this, &runner](bool cancelled) {
     wait_.stop();
     hide();
-    if (cancelled) emit message(tr("%1: cancelled; the last good result stays.").arg(runner.title()));
+    if (cancelled) emit message(tr("%1: cancelled; the last good result is kept.").arg(runner.title()));
   });
   connect(&runner, &JobRunner::dropped, this,
           [this](const QString& title) { emit message(tr("%1: cancelled; nothing was written.").arg(title)); });

@@ -61,7 +61,7 @@ void LogFile::add(const QString& sentence) {
   }
   if (!why.isEmpty())
     callLater(*this, [this, why] {
-      emit failed(tr("Messages are not kept in a file: %1 cannot be written: %2.").arg(path_, why));
+      emit failed(tr("Messages are not saved to a file: %1 cannot be written: %2.").arg(path_, why));
     });
 }
 

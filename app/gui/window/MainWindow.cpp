@@ -92,17 +92,17 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(log_->toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
     if (shown) resizeDocks({log_}, {kLog_px}, Qt::Vertical);
   });
-  log_->toggleViewAction()->setStatusTip(tr("All that was said: alarms, boards, wires, tares, files"));
+  log_->toggleViewAction()->setStatusTip(tr("Message log: alarms, boards, wires, tares, files"));
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
   connect(designPage, &DesignPage::sceneAsked, this, &MainWindow::showScene);
-  addScene("design", tr("Design"), tr("The sensor at rest and all its parameters"), designPage);
+  addScene("design", tr("Design"), tr("Sensor at rest and all its parameters"), designPage);
   deformation_ = new DeformationPage(workbench);
   connect(deformation_, &DeformationPage::message, this, &MainWindow::showMessage);
   animation_ = new LoadPathAnimation(workbench.touch(), deformation_->block(), this);
   connect(animation_, &LoadPathAnimation::done, this, &MainWindow::showMessage);
-  addScene("deformation", tr("Deformation"), tr("The block under load"), deformation_);
-  addScene("resistance", tr("Resistance"), tr("Row-column resistances under the load"), new ResistancePage(workbench));
+  addScene("deformation", tr("Deformation"), tr("Block under load"), deformation_);
+  addScene("resistance", tr("Resistance"), tr("Row-column resistances under load"), new ResistancePage(workbench));
   networkPage_ = new NetworkPage(workbench, network);
   connect(networkPage_, &NetworkPage::sceneAsked, this, &MainWindow::showScene);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage_);
@@ -111,10 +111,10 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   connect(live_, &LiveBoards::recordingsChanged, this, &MainWindow::recordingsChanged);
   connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
   connect(networkPage_, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
-  addScene("live", tr("Live"), tr("Boards, the simulated board or a recording, live"), live_);
+  addScene("live", tr("Live"), tr("Forces of a board, the simulated board or a recording"), live_);
   reports_ = new ReportsPage(workbench);
   connect(reports_, &ReportsPage::message, this, &MainWindow::showMessage);
-  addScene("reports", tr("Reports"), tr("The paper reproduced, and the reports"), reports_);
+  addScene("reports", tr("Reports"), tr("Reproduction of the paper, and other reports"), reports_);
   for (const PictureView* view : findChildren<PictureView*>())
     connect(view, &PictureView::message, this, &MainWindow::showMessage);
   exports_ = new ExportJob(this);

@@ -74,19 +74,21 @@ QAction* Menus::add(QMenu& menu, const QString& text, const QString& tip, const 
 
 void Menus::buildFile() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&File"));
-  add(menu, tr("&Paper's design"),
-      tr("Starts anew from the sensor of F. Wang et al., Sensors & Transducers 159 (11), 2013, and one example load"),
+  add(menu, tr("&New (paper's sensor)"),
+      tr("Starts a new project with the sensor of F. Wang et al., Sensors & Transducers 159 (11), 2013, and one "
+         "example load"),
       QKeySequence::New, [this] { document_.startAnew(); });
-  add(menu, tr("&Open..."), tr("Opens a design or a project file"), QKeySequence::Open, [this] { document_.open(); });
+  add(menu, tr("&Open..."), tr("Opens a design, project, samples, network, study or recording"), QKeySequence::Open,
+      [this] { document_.open(); });
   recent_ = menu.addMenu(tr("Open &recent"));
   recent_->setObjectName("recent");
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);
   listRecent();
   menu.addSeparator();
-  add(menu, tr("&Save project"), tr("Saves everything that was set"), QKeySequence::Save, [this] { document_.save(); });
-  add(menu, tr("Save project &as..."), tr("Saves everything that was set in another file"),
-      QKeySequence("Ctrl+Shift+S"), [this] { document_.saveAs(); });
-  add(menu, tr("Save &design..."), tr("Saves the design alone, for the command line"), {}, [this] {
+  add(menu, tr("&Save project"), tr("Saves the project"), QKeySequence::Save, [this] { document_.save(); });
+  add(menu, tr("Save project &as..."), tr("Saves the project to another file"), QKeySequence("Ctrl+Shift+S"),
+      [this] { document_.saveAs(); });
+  add(menu, tr("Save &design..."), tr("Saves only the design, for the command line"), {}, [this] {
     exportTo(tr("Save design"), "sensor.json", tr("Designs (*.json)"),
              [this](const QString& file) { saveDesign(file.toStdString(), workbench_.project().design, true); });
   });
@@ -133,7 +135,7 @@ void Menus::exportResistances() {
 }
 
 void Menus::buildExport(QMenu& menu) {
-  add(menu, tr("Export &VTU..."), tr("Mesh and fields of what is shown, for ParaView"), {}, [this] {
+  add(menu, tr("Export &VTU..."), tr("Exports mesh and fields as shown, for ParaView"), {}, [this] {
     if (workbench_.touch().fields() == nullptr) {
       window_.showMessage(
           tr("There is no solution to export yet; wait until it is computed on the Deformation scene."));
@@ -143,7 +145,7 @@ void Menus::buildExport(QMenu& menu) {
     if (!file.isEmpty()) window_.exports().write(file, vtuMaking());
   });
   add(menu, tr("Export &electrodes (CSV)..."),
-      tr("Displacements of the electrodes of both layers as shown, with load and design"), {}, [this] {
+      tr("Exports the displacements of the electrodes of both layers as shown, with load and design"), {}, [this] {
         const TouchSession& touch = workbench_.touch();
         if (touch.electrodes() == nullptr) {
           window_.showMessage(tr("There are no displacements to export yet; wait until they are computed."));
@@ -155,11 +157,13 @@ void Menus::buildExport(QMenu& menu) {
                                         *touch.electrodes()));
         });
       });
-  add(menu, tr("Export &resistances (CSV)..."), tr("Row-column resistances at rest and as shown, with load and design"),
-      {}, [this] { exportResistances(); });
+  add(menu, tr("Export &resistances (CSV)..."),
+      tr("Exports row-column resistances at rest and as shown, with load and design"), {},
+      [this] { exportResistances(); });
   add(menu, tr("Export &field in the cut (CSV)..."),
-      tr("The values that colour the cut of the Deformation scene, with places, displacements, load and design"), {},
-      [this] {
+      tr("Exports the values that colour the cut of the Deformation scene, with positions, displacements, load and "
+         "design"),
+      {}, [this] {
         if (const QString problem = cutProblem(workbench_, window_.deformation()); !problem.isEmpty()) {
           window_.showMessage(problem);
           return;
@@ -168,7 +172,7 @@ void Menus::buildExport(QMenu& menu) {
         if (!file.isEmpty()) window_.exports().write(file, cutMaking(workbench_, window_.deformation()));
       });
   add(menu, tr("Export Calculi&X deck..."),
-      tr("Mesh, rubber and load as an input file for CalculiX or Abaqus, as palp mesh --format inp writes it"), {},
+      tr("Exports mesh, rubber and load as an input file for CalculiX or Abaqus, like palp mesh --format inp"), {},
       [this] {
         const Touch& touch = workbench_.touch().touch();
         if (touch.mesh() == nullptr) {
@@ -183,24 +187,25 @@ void Menus::buildExport(QMenu& menu) {
         });
       });
   add(menu, tr("&Film of the load path..."),
-      tr("From rest to the full load, as the block is shown now: an animated GIF, or numbered pictures"), {},
-      [this] { makeFilm(); });
-  add(menu, tr("Picture of the &view..."), tr("The block, map or chart of the scene alone as PNG, without the panels"),
+      tr("Saves a film from rest to the full load with the present look of the block: an animated GIF or numbered "
+         "pictures"),
+      {}, [this] { makeFilm(); });
+  add(menu, tr("Picture of the &view..."), tr("Saves the block, map or chart of the scene as PNG, without the panels"),
       QKeySequence("Ctrl+Shift+P"), [this] { saveView(); });
   add(menu, tr("Export all charts and &tables..."),
-      tr("Every chart and table of this scene into a new folder: pictures, their points and tables as CSV"),
+      tr("Saves every chart and table of this scene to a new folder: pictures, and their data as CSV"),
       QKeySequence("Ctrl+Shift+E"), [this] { window_.sceneExport().ask(window_.currentScene()); });
-  add(menu, tr("&Picture of the window..."), tr("The window as PNG; a right click on a view saves that view alone"),
-      QKeySequence("Ctrl+P"), [this] {
+  add(menu, tr("&Picture of the window..."),
+      tr("Saves the window as PNG; a right click on a view saves only that view"), QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
           writeFile(file.toStdString(), pngOf(windowPicture(window_)).toStdString(), true); // the dialog has asked
         });
       });
-  add(menu, tr("Copy as co&mmand"), tr("The palp commands that do what the scene shows, to the clipboard"),
+  add(menu, tr("Copy as co&mmand"), tr("Copies the palp commands that do what the scene shows to the clipboard"),
       QKeySequence("Ctrl+Shift+C"), [this] {
         const QString commands = window_.currentScene().commands(workbench_.project(), "sensor.json");
         if (commands.isEmpty()) {
-          window_.showMessage(tr("This scene has no command of its own."));
+          window_.showMessage(tr("This scene has no command."));
           return;
         }
         QApplication::clipboard()->setText(commands);
@@ -239,7 +244,7 @@ void Menus::buildEdit() {
   auto* undoing = new UndoActions(workbench_, this);
   menu.addActions({undoing->undo(), undoing->redo()});
   menu.addSeparator();
-  add(menu, tr("&Compute again"), tr("Solves again after a cancel"), QKeySequence("F5"), [this] {
+  add(menu, tr("&Compute again"), tr("Solves again after a cancellation"), QKeySequence("F5"), [this] {
     workbench_.touch().resume();
     workbench_.kept().resume();
     workbench_.field().retry();
@@ -248,7 +253,7 @@ void Menus::buildEdit() {
   auto* dock = new QDockWidget(tr("History"), &window_);
   dock->setObjectName("history");
   auto* list = new QUndoView(&workbench_.history());
-  list->setEmptyLabel(tr("as it was at first"));
+  list->setEmptyLabel(tr("Initial state"));
   list->setWordWrap(true);
   dock->setWidget(list);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
@@ -271,7 +276,7 @@ void Menus::buildView() {
 
 void Menus::buildHelp() {
   QMenu& menu = *window_.menuBar()->addMenu(tr("&Help"));
-  add(menu, tr("&Help"), tr("What each scene does, what the mouse and the keys do"), QKeySequence("F1"),
+  add(menu, tr("&Help"), tr("Help on every scene, the mouse and the keys"), QKeySequence("F1"),
       [this] { showHelp(&window_, window_.currentScene().objectName()); });
   QMenu& examples = *menu.addMenu(tr("&Examples"));
   for (const Example& example : kExamples)
@@ -283,18 +288,17 @@ void Menus::buildHelp() {
         QMessageBox::warning(&window_, tr("Examples"), QString::fromStdString(missing.what()));
       }
     });
-  add(menu, tr("&About Palp"), tr("What this program is"), {}, [this] {
+  add(menu, tr("&About Palp"), tr("Version, paper and licence of this program"), {}, [this] {
     QMessageBox about(
         QMessageBox::NoIcon, tr("About Palp"),
         tr("<b>Palp %1</b><br>Follows a touch on a three-axis tactile sensor of conductive rubber from the block to "
            "the force.<br><br>The paper that it reproduces, and whose sensor it starts with: F. Wang et al., "
-           "<i>Decoupling "
-           "research of a three-dimensional force flexible tactile sensor based on radial basis function neural "
-           "network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>A touch is forces on areas and "
-           "discs or indenters with friction, the resistances come by the paper's Eq. (1) or by the current in the "
-           "rubber, a network decodes the force and, if it is asked to, the place; studies compare many designs. Not "
-           "in it: hysteresis, creep and temperature of the rubber. A real board is less kind.<br><br>"
-           "GNU Affero General Public License, version 3 or later.<br><br><small>%2</small>")
+           "<i>Decoupling research of a three-dimensional force flexible tactile sensor based on radial basis function "
+           "neural network</i>, Sensors &amp; Transducers 159 (11), 2013, 289-298.<br><br>A touch is a set of forces "
+           "on areas and discs, or indenters with friction. Resistances follow from the paper's Eq. (1) or from the "
+           "current in the rubber. A network decodes the force and, optionally, the position. Studies compare many "
+           "designs. Hysteresis, creep and temperature of the rubber are not modelled: real sensors will do "
+           "worse.<br><br>GNU Affero General Public License, version 3 or later.<br><br><small>%2</small>")
             .arg(QApplication::applicationVersion(),
                  QString::fromStdString(versionInWords()).toHtmlEscaped().replace('\n', "<br>")),
         QMessageBox::Ok, &window_);
@@ -309,7 +313,7 @@ void Menus::listRecent() {
   const QStringList files = Document::recent();
   for (const QString& file : files)
     add(*recent_, file, tr("Opens %1").arg(file), {}, [this, file] { document_.open(file); });
-  if (files.isEmpty()) recent_->addAction(tr("Nothing was opened or saved yet"))->setEnabled(false);
+  if (files.isEmpty()) recent_->addAction(tr("No files opened or saved yet"))->setEnabled(false);
 }
 
 void Menus::exportTo(const QString& title, const QString& proposal, const QString& filter,

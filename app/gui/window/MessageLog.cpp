@@ -19,7 +19,7 @@ MessageLog::MessageLog(QWidget* parent) : QDockWidget(tr("Messages"), parent) {
   setObjectName("messages");
   lines_ = new QPlainTextEdit;
   lines_->setObjectName("messageLines");
-  lines_->setAccessibleName(tr("What the window has said"));
+  lines_->setAccessibleName(tr("Messages of the window"));
   lines_->setReadOnly(true);
   lines_->setMaximumBlockCount(kMostLines);
   place_ = new QLineEdit;

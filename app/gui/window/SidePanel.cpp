@@ -46,8 +46,8 @@ void SidePanel::setFolded(bool folded) {
 void SidePanel::setFoldedForNow(bool folded) {
   scroll_->setVisible(!folded);
   strip_->setArrowType(folded ? Qt::RightArrow : Qt::LeftArrow);
-  strip_->setToolTip(folded ? tr("Shows the panel (F9)") : tr("Folds the panel away (F9)"));
-  strip_->setAccessibleName(folded ? tr("Show the panel") : tr("Fold the panel away"));
+  strip_->setToolTip(folded ? tr("Shows the panel (F9)") : tr("Hides the panel (F9)"));
+  strip_->setAccessibleName(folded ? tr("Show the panel") : tr("Hide the panel"));
   emit foldedNow(folded);
 }
 

@@ -16,7 +16,7 @@ StatusLamps::StatusLamps(LiveBoards& live, QStatusBar* bar) : QObject(bar), live
   report_ = new QToolButton;
   report_->setObjectName("reportLamp");
   report_->setAutoRaise(true);
-  report_->setToolTip(tr("A report is being made; a click leads to the Reports scene"));
+  report_->setToolTip(tr("A report is running; a click opens the Reports scene"));
   report_->hide();
   connect(report_, &QToolButton::clicked, this, [this] { emit sceneAsked("reports"); });
   bar_.addPermanentWidget(report_);

@@ -28,14 +28,14 @@ QAction* action(QMenu& menu, const QString& text, const QString& tip, const QLis
 } // namespace
 
 ViewActions::ViewActions(MainWindow& window, QMenu& menu) : QObject(&window), window_(window) {
-  addTheme(menu, tr("&Dark theme"), tr("Light or dark"), "Ctrl+T", "darkTheme", Theme::Dark);
-  addTheme(menu, tr("&High contrast"), tr("White and bright colours on black"), "Ctrl+Shift+T", "contrastTheme",
+  addTheme(menu, tr("&Dark theme"), tr("Switches between the light and the dark theme"), "Ctrl+T", "darkTheme",
+           Theme::Dark);
+  addTheme(menu, tr("&High contrast"), tr("Shows white and bright colours on black"), "Ctrl+Shift+T", "contrastTheme",
            Theme::Contrast);
   addTextSize(menu, tr("&Larger text"), tr("Makes all text larger"), {QKeySequence("Ctrl++"), QKeySequence("Ctrl+=")},
               "largerText", 1);
   addTextSize(menu, tr("&Smaller text"), tr("Makes all text smaller"), {QKeySequence("Ctrl+-")}, "smallerText", -1);
-  addTextSize(menu, tr("&Normal text"), tr("The desktop's own size of text"), {QKeySequence("Ctrl+0")}, "normalText",
-              0);
+  addTextSize(menu, tr("&Normal text"), tr("Uses the desktop's text size"), {QKeySequence("Ctrl+0")}, "normalText", 0);
   addFullScreen(menu);
   addPanel(menu);
   menu.addAction(window_.findChild<QDockWidget*>("messages")->toggleViewAction());
@@ -63,8 +63,8 @@ void ViewActions::addTextSize(QMenu& menu, const QString& text, const QString& t
 }
 
 void ViewActions::addFullScreen(QMenu& menu) {
-  QAction* full =
-      action(menu, tr("&Full screen"), tr("The whole screen, or a window again"), {QKeySequence("F11")}, "fullScreen");
+  QAction* full = action(menu, tr("&Full screen"), tr("Switches between full screen and a window"),
+                         {QKeySequence("F11")}, "fullScreen");
   full->setCheckable(true);
   connect(&menu, &QMenu::aboutToShow, full, [this, full] { full->setChecked(window_.isFullScreen()); });
   connect(full, &QAction::triggered, this,
@@ -72,8 +72,8 @@ void ViewActions::addFullScreen(QMenu& menu) {
 }
 
 void ViewActions::addPanel(QMenu& menu) {
-  QAction* panel = action(menu, tr("Side &panel"), tr("Shows the scene's panel or folds it away"), {QKeySequence("F9")},
-                          "sidePanelShown");
+  QAction* panel =
+      action(menu, tr("Side &panel"), tr("Shows or hides the scene's panel"), {QKeySequence("F9")}, "sidePanelShown");
   panel->setCheckable(true);
   const auto its = [this]() -> SidePanel* { // of several boards that of the one with the focus
     const QList<SidePanel*> panels = window_.currentScene().findChildren<SidePanel*>();

@@ -54,7 +54,7 @@ std::vector<std::string> rowWireTitle(int rowWire, bool displaced, double factor
 Picture drawRowWire(const SensorDesign& design, int rowWire, const ElectrodeDisplacements* displacements,
                     std::optional<double> warpFactor, int width, int height, Theme theme) {
   if (rowWire < 0 || rowWire >= design.rowWires())
-    throw DesignError("row-wire " + std::to_string(rowWire) + ": allowed is 0 to " +
+    throw DesignError("row-wire " + std::to_string(rowWire) + ": expected 0 to " +
                       std::to_string(design.rowWires() - 1));
   const Palette& ink = palette(theme);
   const int count = design.electrodesPerRowWire();

@@ -213,7 +213,7 @@ ColorScale colorScale(const std::vector<double>& values, const DeformationOption
   ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options)), values,
                                    quantityName(options.quantity) + (!options.lessKept     ? ""
                                                                      : options.lessUniform ? " - uniform"
-                                                                                           : " - kept"),
+                                                                                           : " - reference"),
                                    quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
@@ -326,7 +326,7 @@ std::vector<PlacedText> DeformationScene::tips() const {
   const Parts& parts = *parts_;
   std::vector<PlacedText> all = parts.electrodes.lit();
   if (parts.markedNode >= 0)
-    all.push_back({parts.block.drawnPlace_mm(parts.markedNode), "the point that was probed", parts.markColor});
+    all.push_back({parts.block.drawnPlace_mm(parts.markedNode), "the probed point", parts.markColor});
   return all;
 }
 

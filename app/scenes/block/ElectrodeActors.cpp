@@ -109,7 +109,7 @@ void ElectrodeActors::show(const SensorDesign& design, const Eigen::Matrix3Xd& u
       const bool row = k < perRow;
       litWords_.push_back({lit.col(k),
                            (row ? "row-wire " : "column-wire ") + std::to_string((*options.litCell)[row ? 0 : 1]) +
-                               ", electrode " + std::to_string(row ? k : k - perRow) + ": of the chosen resistance",
+                               ", electrode " + std::to_string(row ? k : k - perRow) + ": of the selected resistance",
                            ink.selection});
     }
   }

@@ -51,26 +51,26 @@ bool onlyWiresDiffer(const SensorDesign& now, const SensorDesign& kept) {
 
 std::vector<std::string> differenceLines(const DeformationState& state, const DeformationOptions& options) {
   if (state.kept == nullptr)
-    return {options.lessUniform ? "Difference to the same force, uniform: not there yet"
-                                : "Difference to the kept design: not there yet"};
+    return {options.lessUniform ? "Difference from the uniform load: not available yet"
+                                : "Difference from the reference design: not available yet"};
   if (options.lessUniform)
-    return {"Difference to the same force, uniform on the load area beneath",
-            quantityName(options.quantity) + " of the touch less that of the uniform load"};
-  std::vector<std::string> lines{"Difference to the kept design: " + quantityName(options.quantity) +
-                                 " of this design less that of the kept one"};
+    return {"Difference from the same force, uniform on the load area beneath",
+            quantityName(options.quantity) + " of the touch minus that of the uniform load"};
+  std::vector<std::string> lines{"Difference from the reference design: " + quantityName(options.quantity) +
+                                 " of this design minus that of the reference"};
   const Eigen::Vector3d &now = state.design->block_mm, &kept = state.keptDesign->block_mm;
   if (onlyWiresDiffer(*state.design, *state.keptDesign))
-    lines.emplace_back("the two differ in wires and resistances alone: what is left here is their meshes' difference");
+    lines.emplace_back("the designs differ only in wires and resistances: the rest shown here comes from their meshes");
   if (now == kept) return lines;
-  lines.push_back("blocks of two sizes, " + sizeText(now) + " and kept " + sizeText(kept) +
-                  " mm: compared and pressed at the same shares of their sides");
+  lines.push_back("blocks of two sizes, " + sizeText(now) + " and reference " + sizeText(kept) +
+                  " mm: compared and pressed at the same share of their sides");
   const std::vector<PatchLoad>&discs = state.load->patches, &keptDiscs = state.keptLoad->patches;
   for (std::size_t k = 0; k < discs.size() && k < keptDiscs.size(); ++k)
-    lines.push_back("pressed at " + placeText(discs[k].centre_mm) + " mm, the kept one at " +
+    lines.push_back("pressed at " + placeText(discs[k].centre_mm) + " mm, reference at " +
                     placeText(keptDiscs[k].centre_mm) + " mm");
   const std::vector<Indenter>&bodies = state.load->indenters, &keptBodies = state.keptLoad->indenters;
   for (std::size_t k = 0; k < bodies.size() && k < keptBodies.size(); ++k)
-    lines.push_back("indenter at " + placeText(bodies[k].place_mm) + " mm, the kept one at " +
+    lines.push_back("indenter at " + placeText(bodies[k].place_mm) + " mm, reference at " +
                     placeText(keptBodies[k].place_mm) + " mm");
   return lines;
 }
@@ -83,12 +83,12 @@ bool nothingColoured(const DeformationState& state, const DeformationOptions& op
 }
 
 std::vector<std::string> sceneWords(const DeformationState& state, const DeformationOptions& options, double warp) {
-  if (state.current != nullptr && state.current->lines.empty()) return {"The current's way is not there yet"};
+  if (state.current != nullptr && state.current->lines.empty()) return {"Computing the current paths..."};
   if (state.current != nullptr) {
     std::vector<std::string> lines{
         "Current of row-wire " + std::to_string(state.current->rowWire) + ", column-wire " +
             std::to_string(state.current->columnWire),
-        "each line: " + withDigits(100 * state.current->current_A, 2) + " % of what is driven", warpText(warp)};
+        "each line: " + withDigits(100 * state.current->current_A, 2) + " % of the driven current", warpText(warp)};
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }

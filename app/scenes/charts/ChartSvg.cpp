@@ -26,7 +26,7 @@ public:
   ScratchFile() : path_((std::filesystem::temp_directory_path() / "palp-chart-XXXXXX").string()) {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0)
-      throw Error(path_ + ": cannot be made; allowed is a folder for temporary files that can be written to (TMPDIR)");
+      throw Error(path_ + ": cannot be created; expected a folder for temporary files that can be written to (TMPDIR)");
     ::close(descriptor);
   }
   ~ScratchFile() { ::unlink(path_.c_str()); }

@@ -73,7 +73,7 @@ scene() { # NUMBER NAME
 }
 last_scene=later
 scene 1 design
-xdotool mousemove --window "$window" 517 661 click 1 # make and show the mesh
+xdotool mousemove --window "$window" 517 661 click 1 # Make and show the mesh
 settled mesh design "the Design scene made no mesh"
 scene 3 resistance
 xdotool mousemove --window "$window" 500 250 click 1

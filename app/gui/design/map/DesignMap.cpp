@@ -55,7 +55,7 @@ QString mapWords(const MappedResolution& map, std::size_t quantity) {
       }
   const MapQuantity& its = mapQuantities()[quantity];
   const QString name = QString::fromStdString(its.name), unit = QString::fromStdString(its.unit);
-  if (all.empty()) return QObject::tr("<b>%1</b>: nowhere on these places.").arg(name);
+  if (all.empty()) return QObject::tr("<b>%1</b>: not available at any of these positions.").arg(name);
   return QObject::tr("<b>%1</b>: median <b>%2 %3</b>, worst <b>%4 %3</b> at (%5, %6) mm. Contact radius %7 mm.")
       .arg(name, mapNumber(median(all)), unit, mapNumber(worst), mapNumber(at.x()), mapNumber(at.y()),
            mapNumber(map.contactRadius_mm));
@@ -63,9 +63,9 @@ QString mapWords(const MappedResolution& map, std::size_t quantity) {
 
 QString mapIntention() {
   return QObject::tr(
-      "Cramer-Rao bounds at rest, all row-wires read: no estimate without a bias has smaller deviations. "
-      "Smallest force seen: three deviations, straight down at a known place. Without friction force and "
-      "place are unknown, held by it all three forces and the place.");
+      "Cramer-Rao bounds at rest, all row-wires read: no unbiased estimate has smaller deviations. Smallest detectable "
+      "force: three deviations of a force straight down at a known position. Without friction, the normal force and "
+      "the position are estimated; with a sticking contact, all three forces and the position.");
 }
 
 } // namespace
@@ -86,7 +86,7 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   connect(onBlock_, &QCheckBox::toggled, this, [this](bool on) {
     Project next = workbench_.project();
     next.view.mapOnBlock = on;
-    workbench_.edit(tr("Draw the map over the block"), next);
+    workbench_.edit(tr("Draw the map on the block"), next);
   });
   sayProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
@@ -94,7 +94,7 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (cancelled) shown_.reset(); // what was mapped before is shown again
     displayProject();
-    if (cancelled) words_->setText(tr("Stopped; nothing was changed. ") + (shown_ ? words_->text() : QString()));
+    if (cancelled) words_->setText(tr("Cancelled; nothing was changed. ") + (shown_ ? words_->text() : QString()));
   });
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     if (runner_.running()) runner_.cancel(); // of the other project
@@ -113,15 +113,15 @@ void DesignMap::build() {
   form->setVerticalSpacing(3); // all of it is seen where the window is low
   start_ = new QPushButton(tr("Map the resolution"));
   start_->setObjectName("mapResolution");
-  start_->setToolTip(tr("Solves one load a resistance; another size, force or noise is then read out of the same. Esc "
-                        "stops it"));
+  start_->setToolTip(
+      tr("Solves once per resistance; changing size, force or noise afterwards needs no new solve. Esc cancels."));
   form->addRow(start_);
   quantity_ = new QComboBox;
   quantity_->setObjectName("mapQuantity");
   for (const MapQuantity& each : mapQuantities())
     quantity_->addItem(QString::fromStdString(each.name + " [" + each.unit + "]"));
-  quantity_->setToolTip(tr("Deviations of a touch's force or place, the smallest force that is seen, or how far two "
-                           "touches must be apart; all are computed at once"));
+  quantity_->setToolTip(tr("Deviation of a touch's force or position, the smallest detectable force, or how far apart "
+                           "two touches must be; all are computed together"));
   form->addRow(tr("Show"), quantity_);
   buildTouch(*form);
   row->addWidget(side, 0, Qt::AlignTop);
@@ -149,7 +149,7 @@ void DesignMap::buildTouch(QFormLayout& form) {
   shape_ = new QComboBox;
   shape_->setObjectName("mapShape");
   for (const IndenterShape shape : kMappedShapes) shape_->addItem(QString::fromStdString(shapeName(shape)));
-  shape_->setToolTip(tr("Of what touches: one that has a place along x and y"));
+  shape_->setToolTip(tr("Shape of the indenter that the map assumes"));
   const auto number = [](const char* name, const QString& unit, double low, double high, const QString& tip) {
     auto* box = new NumberBox;
     box->setObjectName(name);
@@ -167,32 +167,33 @@ void DesignMap::buildTouch(QFormLayout& form) {
     both->addWidget(second, 1);
     form.addRow(label, both);
   };
-  radius_ = number("mapRadius", tr(" mm"), 0.05, 1e4, tr("Of the sphere, the pin or the punch"));
-  force_ =
-      number("mapForce", tr(" N"), 0.001, 1e4, tr("That it presses with; the place's deviation goes with one over it"));
+  radius_ = number("mapRadius", tr(" mm"), 0.05, 1e4, tr("Radius of the sphere, the pin or the punch"));
+  force_ = number("mapForce", tr(" N"), 0.001, 1e4,
+                  tr("Force of the touch; the deviation of the position is inversely proportional to it"));
   noise_ = new PercentBox;
   noise_->setObjectName("mapNoise");
   noise_->setAccessibleName(tr("Noise of the resistances"));
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
-  noise_->setPrefix(tr("noise "));
+  noise_->setPrefix(tr("Noise "));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each reading, as in \"Mesh and noise floor\""));
   places_ = new WholeBox;
   places_->setObjectName("mapPlaces");
   places_->setRange(3, kMostMapPlaces);
   places_->setKeyboardTracking(false);
-  places_->setToolTip(tr("Places along the shorter side of the face; a tenth of it all round is left out"));
-  onBlock_ = new QCheckBox(tr("over the block too"));
+  places_->setToolTip(
+      tr("Number of positions along the shorter side of the face; a margin of a tenth of the side is left out"));
+  onBlock_ = new QCheckBox(tr("Also on the block"));
   onBlock_->setObjectName("mapOnBlock");
   pair(tr("Touch"), shape_, radius_);
   pair(tr("Force"), force_, noise_);
   law_ = new QComboBox;
   law_->setObjectName("mapLaw");
   law_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  law_->setToolTip(tr("How the resistances are found and read, for this map alone"));
+  law_->setToolTip(tr("Law and read-out of the resistances, for this map only"));
   form.addRow(tr("Law, read-out"), law_);
-  pair(tr("Places"), places_, onBlock_);
+  pair(tr("Positions"), places_, onBlock_);
 }
 
 void DesignMap::setTheme(Theme theme) {
@@ -218,10 +219,10 @@ void DesignMap::listLaws(const SensorDesign& design) {
   const std::vector<DesignChoice>& readouts = designField("resistance.readout").choices;
   const FieldLaw* field = design.field();
   const QString own = field != nullptr ? readouts[static_cast<std::size_t>(field->readout)].words : QString("Eq. (1)");
-  law_->addItem(tr("the design's (%1)").arg(own), QString());
+  law_->addItem(tr("The design's (%1)").arg(own), QString());
   law_->addItem(tr("Eq. (1)"), "pairs");
   for (std::size_t k = 0; k < readouts.size(); ++k)
-    law_->addItem(tr("field, %1").arg(readouts[k].words), QString::fromStdString(kReadouts.all()[k].second));
+    law_->addItem(tr("Field, %1").arg(readouts[k].words), QString::fromStdString(kReadouts.all()[k].second));
 }
 
 std::size_t DesignMap::quantity() const {
@@ -235,7 +236,7 @@ std::size_t DesignMap::quantity() const {
 void DesignMap::chooseQuantity(int quantity) {
   Project next = workbench_.project();
   next.view.mapQuantity = mapQuantities()[static_cast<std::size_t>(quantity)].file;
-  workbench_.edit(tr("Choose what is mapped"), next);
+  workbench_.edit(tr("Select the quantity of the map"), next);
 }
 
 void DesignMap::readSettings() {
@@ -247,7 +248,7 @@ void DesignMap::readSettings() {
   map.force_N = force_->value() == -usual.press()->force_N.z() ? 0 : force_->value();
   map.places = places_->value();
   map.law = law_->currentData().toString().toStdString();
-  workbench_.edit(tr("Change what is mapped"), next);
+  workbench_.edit(tr("Change the settings of the map"), next);
 }
 
 void DesignMap::displayProject() {
@@ -279,9 +280,10 @@ QString DesignMap::staleWords() const {
   Indenter touch = mappedTouch(project.design, settings);
   touch.place_mm = shown_->touch.place_mm;
   if (shown_->design != mappedDesign(project.design, settings))
-    return tr("The map is of another design, law or read-out: \"Map the resolution\" does it again.");
+    return tr(
+        "Outdated: this map belongs to another design, law or read-out. Press \"Map the resolution\" to update it.");
   if (shown_->touch != touch || shown_->noise != project.view.resistanceNoise)
-    return tr("The map is for another touch or another noise: \"Map the resolution\" does it again.");
+    return tr("Outdated: this map belongs to another touch or noise. Press \"Map the resolution\" to update it.");
   return {};
 }
 
@@ -307,7 +309,7 @@ std::shared_ptr<const FaceMap> DesignMap::overBlock() const {
 
 void DesignMap::run() {
   const Project& project = workbench_.project();
-  words_->setText(tr("Being computed..."));
+  words_->setText(tr("Computing..."));
   runner_.start(
       tr("Mapping the resolution"),
       [this, design = project.design, mesh = project.mesh, settings = project.studies.map,

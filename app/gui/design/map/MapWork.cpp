@@ -107,7 +107,7 @@ MapFound mapResolution(const SensorDesign& design, const MeshOptions& mesh, cons
   if (before && before->design == mapped && before->mesh == meshing) {
     found.basis = before;
   } else {
-    progress(0, "the readings at rest");
+    progress(0, "readings at rest");
     const LinearReadings readings = readingsAtRest(mapped, 0, stop);
     progress(0.2, "mesh and factorisation");
     const HyperelasticProblem problem(mapped, sensorMesh(mapped, meshing, stop));
@@ -118,7 +118,7 @@ MapFound mapResolution(const SensorDesign& design, const MeshOptions& mesh, cons
     problem.releaseFactor();
     found.basis = std::make_shared<const MapBasis>(MapBasis{mapped, meshing, std::move(*surfaces)});
   }
-  progress(0.7, "the bounds at each place");
+  progress(0.7, "bounds at each position");
   const TouchMap map = touchMap(found.basis->surfaces, request, 0, stop);
   found.map = {mapped, touch, noise, request.low_mm, request.high_mm, request.places, map.contactRadius_mm, {}};
   for (const MapQuantity& quantity : mapQuantities()) {

@@ -216,7 +216,7 @@ void openSamples(const fs::path& folder, const SensorDesign& design, OpenedResul
   try {
     opened.results.samples = std::make_shared<const NetworkSamples>(openTheseSampleFiles({file}, design, stop));
     opened.problems.back() += "; every fifth sample of " + file.filename().string() +
-                              " tests in their place, which networks of before were trained with";
+                              " is used for testing, although the earlier networks were trained with it";
   } catch (const Error&) { // said already: it is the first that is read
   }
 }
@@ -231,7 +231,7 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
                                      const std::set<fs::path>& ours) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) throw Error(folder.string() + ": cannot be made: " + failed.message());
+  if (failed) throw Error(folder.string() + ": cannot be created: " + failed.message());
   FilesTogether writing;
   if (results.samples) addSamples(writing, folder / kSamples, *results.samples);
   if (results.fit)
@@ -247,7 +247,7 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
     const fs::path file = folder / name;
     const bool written = name == kNetwork || name == kSweeps || results.samples;
     if (written && !ours.contains(file) && writing.keepAs(file, folder / kept))
-      said.push_back(file.string() + " held something that is not open here; it is kept as " + kept);
+      said.push_back(file.string() + " contained something that is not open here; it is kept as " + kept);
   }
   writing.commit();
   if (!results.fit) fs::remove(folder / kNetwork, failed);

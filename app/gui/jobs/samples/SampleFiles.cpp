@@ -39,7 +39,8 @@ SampleSet joined(Shards shards) {
     const std::size_t next = part.origin.firstSample, held = static_cast<std::size_t>(all.size());
     if (next != held)
       throw Error(shards.file.string() + ": its samples begin with number " + std::to_string(next) +
-                  ", but those before it end with " + std::to_string(held) + "; choose all parts, each once");
+                  ", but the samples before it end with " + std::to_string(held) +
+                  "; open all parts together, each once");
     append(all, part);
   }
   return all;
@@ -59,10 +60,10 @@ std::array<SampleSet, 2> heldOut(const SampleSet& all) {
 void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path& file) {
   const std::string ours = designFingerprint(design);
   if (set.origin.designFingerprint != ours && !set.origin.imported())
-    throw Error(file.string() + ": its samples are of the design " + set.origin.designFingerprint +
-                "; the design that is open is " + ours + ": open the one they were made of first");
+    throw Error(file.string() + ": its samples belong to the design " + set.origin.designFingerprint +
+                "; the open design is " + ours + ": open the design of the samples first");
   if (set.together())
-    throw Error(file.string() + ": its samples load all areas together; allowed here are samples of one area each");
+    throw Error(file.string() + ": its samples load all areas together; expected samples of one loaded area each");
 }
 
 } // namespace
@@ -95,11 +96,11 @@ void requireSamples(const fs::path& file) {
   QByteArray line = source.readLine();
   if (kind == FileKind::Project) { // or JSON that is none of ours
     if (!(line + source.readAll()).contains("\"palp_project\"")) return;
-    throw Error(QObject::tr("%1: is a project, not samples; File > Open opens it").arg(name).toStdString());
+    throw Error(QObject::tr("%1: this is a project, not samples; use File > Open").arg(name).toStdString());
   }
   while (line.startsWith('#') && !source.atEnd()) line = source.readLine(); // what a table of ours says of itself
-  throw Error(QObject::tr("%1: holds no samples but a table that begins with \"%2\". Files of samples begin with "
-                          "\"# palp_samples\"; of readings and forces of your own palp import makes them.")
+  throw Error(QObject::tr("%1: not a Palp sample file (it starts with \"%2\", expected \"# palp_samples\"). Use palp "
+                          "import to convert your own measurements.")
                   .arg(name, QString::fromUtf8(line).trimmed().left(kShown))
                   .toStdString());
 }
@@ -165,11 +166,11 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
   if (requests.size() > 2)
     throw Error(requests[2].file.string() + ": its samples belong to neither of the two sets before it (" +
                 differenceOfHeads(requests[0].parts[0], requests[2].parts[0]) +
-                "); allowed is one set for training and one for testing");
+                "); expected one set for training and one for testing");
   for (const Shards& request : requests)
     if (const std::string& rig = request.parts[0].origin.designFingerprint;
         rig != requests[0].parts[0].origin.designFingerprint)
-      throw Error(request.file.string() + ": its samples are of another design or rig (" + rig + ") than those of " +
+      throw Error(request.file.string() + ": its samples belong to another design or rig (" + rig + ") than those of " +
                   requests[0].file.string() + " (" + requests[0].parts[0].origin.designFingerprint + ")");
   const auto seed = [&](std::size_t k) { return requests[k].parts[0].origin.seed; };
   if (test.empty() && requests.size() == 2 && seed(0) == testSeed(seed(1))) std::swap(requests[0], requests[1]);
@@ -184,7 +185,7 @@ NetworkSamples openTheseSampleFiles(const std::vector<fs::path>& files, const Se
     samples.split = true;
   }
   if (samples.training.size() == 0 || samples.test.size() == 0)
-    throw Error(files[0].string() + ": too few samples to train with and to test with");
+    throw Error(files[0].string() + ": too few samples for training and testing");
   samples.file = QString::fromStdString(files[0].string());
   samples.settings = {samples.training.origin.perArea, samples.training.origin.seed};
   if (samples.training.hasTouches()) samples.settings.touches.emplace().count = samples.training.origin.perArea;

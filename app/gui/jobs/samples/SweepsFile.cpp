@@ -52,8 +52,12 @@ QJsonObject errorJson(const PredictionError& error) {
 
 PredictionError errorOf(const JsonPlace& place) {
   place.onlyKeys({"eq13_percent", "eq13_floored_percent", "mean_absolute", "rmse_percent_of_range"});
-  return {numbersOf(place.at("eq13_percent")), numbersOf(place.at("eq13_floored_percent")),
-          numbersOf(place.at("mean_absolute")), numbersOf(place.at("rmse_percent_of_range"))};
+  PredictionError error; // its floor is not in the file: no sweep or comparison shows it
+  error.eq13Percent = numbersOf(place.at("eq13_percent"));
+  error.eq13FlooredPercent = numbersOf(place.at("eq13_floored_percent"));
+  error.meanAbsolute = numbersOf(place.at("mean_absolute"));
+  error.rmsePercentOfRange = numbersOf(place.at("rmse_percent_of_range"));
+  return error;
 }
 
 QJsonObject settingsJson(const NetworkSettings& settings) {
@@ -150,7 +154,7 @@ void parseSweeps(const QByteArray& text, const QString& file, NetworkResults& re
   formatVersion(root, kVersionKey, kVersion);
   const QByteArray of = QByteArray::fromStdString(root.at("samples").asJson());
   if (QJsonDocument::fromJson(of).object() != samplesJson(*results.samples))
-    throw Error(name + ": its sweep and comparison are of other samples than those beside it; they are not shown");
+    throw Error(name + ": its sweep and comparison belong to other samples than the project's; they are not shown");
   NetworkResults found;
   if (root.has("sweep")) {
     const JsonPlace place = root.at("sweep");

@@ -52,13 +52,13 @@ KnownLoad::KnownLoad(QWidget* parent) : QWidget(parent) {
   form->setContentsMargins(0, 0, 0, 0);
   area_ = new WholeBox;
   area_->setObjectName("labelArea");
-  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
+  area_->setToolTip(tr("Pressed load area; areas count from 0"));
   form->addRow(tr("Area"), area_);
   placeRow_ = buildPlace();
-  form->addRow(tr("Place"), placeRow_);
+  form->addRow(tr("Position"), placeRow_);
   form->setRowVisible(placeRow_, false);
   form->addRow(tr("Mass"), buildMass());
-  form->addRow(tr("Try"), buildSuggestions());
+  form->addRow(tr("Suggested"), buildSuggestions());
   form->addRow(buildForces());
 }
 
@@ -72,7 +72,7 @@ QHBoxLayout* KnownLoad::buildPlace() {
     place_mm_[axis]->setDecimals(2);
     place_mm_[axis]->setSuffix(tr(" mm"));
     place_mm_[axis]->setMinimumWidth(kNumber_px);
-    place_mm_[axis]->setToolTip(tr("%1 of the touch from the block's corner, as the rig says [mm]").arg(name));
+    place_mm_[axis]->setToolTip(tr("%1 of the touch, measured from the block's corner [mm]").arg(name));
     row->addWidget(place_mm_[axis], 1);
   }
   return row;
@@ -87,13 +87,14 @@ QHBoxLayout* KnownLoad::buildMass() {
   mass_g_->setSingleStep(10);
   mass_g_->setSuffix(tr(" g"));
   mass_g_->setSpecialValueText(tr("none"));
-  mass_g_->setToolTip(tr("<qt>Mass that rests on the area, or hangs on a thread that pulls it sideways [g]; its weight "
-                         "(9.80665 N/kg) is the force below</qt>"));
+  mass_g_->setToolTip(
+      tr("<qt>Mass that rests on the area or hangs on a thread that pulls it along x or y [g]; its weight "
+         "(9.80665 N/kg) is the force below</qt>"));
   direction_ = new QComboBox;
   direction_->setObjectName("labelDirection");
   direction_->setAccessibleName(tr("Direction of the mass"));
   for (const Pull& pull : kPulls) direction_->addItem(tr(pull.text));
-  direction_->setToolTip(tr("Where the weight acts: down where it rests on the area, else as the thread pulls"));
+  direction_->setToolTip(tr("Direction of the weight: down where it rests on the area, otherwise along the thread"));
   connect(mass_g_, &QDoubleSpinBox::valueChanged, this, &KnownLoad::takeMass);
   connect(direction_, &QComboBox::currentIndexChanged, this, &KnownLoad::takeMass);
   mass_g_->setMinimumWidth(kNumber_px);
@@ -120,8 +121,8 @@ QHBoxLayout* KnownLoad::buildSuggestions() {
 QLayout* KnownLoad::buildForces() {
   auto* grid = new QGridLayout;
   auto* known = new QLabel(tr("Force"));
-  auto* reads = new QLabel(tr("reads"));
-  reads->setToolTip(tr("What the network in use decodes now [N]"));
+  auto* reads = new QLabel(tr("Decoded"));
+  reads->setToolTip(tr("Present force decoded by the network in use [N]"));
   grid->addWidget(known, 1, 0);
   grid->addWidget(reads, 2, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -135,7 +136,7 @@ QLayout* KnownLoad::buildForces() {
     force_N_[axis]->setSingleStep(0.1);
     force_N_[axis]->setButtonSymbols(QAbstractSpinBox::NoButtons); // three in a line
     force_N_[axis]->setMinimumWidth(kNumber_px);
-    force_N_[axis]->setToolTip(tr("%1 that the rig says [N]; a push is negative in z").arg(kAxes[axis]));
+    force_N_[axis]->setToolTip(tr("%1 of the known load [N]; a push is negative in z").arg(kAxes[axis]));
     name->setBuddy(force_N_[axis]);
     reads_[axis] = new QLabel;
     reads_[axis]->setObjectName(QString("reads_%1").arg(kAxes[axis]));
@@ -180,8 +181,8 @@ void KnownLoad::setSensor(const SensorDesign& sensor, const Decoder* decoder) {
     if (mass_g == 0) continue;
     suggested_[k]->setProperty("mass_g", mass_g);
     suggested_[k]->setText(mass_g < 1000 ? tr("%1 g").arg(mass_g) : tr("%1 kg").arg(mass_g / 1000));
-    suggested_[k]->setToolTip(tr("<qt>%1 N, within the %2 N of push that the network was trained for. Three weights on "
-                                 "each area in turn, one frame under each, tell gain and offset apart</qt>")
+    suggested_[k]->setToolTip(tr("<qt>%1 N, within the %2 N of push that the network was trained for. One frame under "
+                                 "each of three weights, on each area in turn, separates gain from offset.</qt>")
                                   .arg(mass_g * kNewtonPerGram, 0, 'g', 3)
                                   .arg(-decoder->low_N(2), 0, 'g', 3));
   }

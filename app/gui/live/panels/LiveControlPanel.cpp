@@ -26,7 +26,7 @@ namespace palp {
 
 namespace {
 
-constexpr const char* kTareTip = QT_TR_NOOP("Takes the next frames as rest; waits while the sensor moves (T)");
+constexpr const char* kTareTip = QT_TR_NOOP("Takes the next frames as rest; waits while the sensor is moving (T)");
 constexpr double kMegabyte = 1e6;
 constexpr double kRecordedReport = 64 + 12; // bytes with kind, length and time
 
@@ -76,20 +76,23 @@ QWidget* LiveControlPanel::buildNetwork() {
   network_ = words("networkName", "hint");
   networkProblem_ = words("networkProblem", "problem");
   column->addWidget(network_);
-  auto* open = pushButton(tr("Open..."), "chooseNetwork",
-                          tr("A network that reads resistances; one that cannot be used leaves this one"));
-  shipped_ = pushButton(tr("Palp's own"), "shippedNetwork",
-                        tr("The network that ships with Palp: all rows of the paper's design, noise 5e-6 of R"));
-  back_ = pushButton(tr("Back"), "networkBack", tr("Back to the network that was in use before"));
+  auto* open =
+      pushButton(tr("Open..."), "chooseNetwork",
+                 tr("Opens a network that reads resistances; if it cannot be used, the present one stays in use"));
+  shipped_ =
+      pushButton(tr("Built-in"), "shippedNetwork",
+                 tr("Uses the network that ships with Palp: all row-wires of the paper's design, noise of 5 ppm"));
+  back_ = pushButton(tr("Back"), "networkBack", tr("Uses the previous network again"));
   column->addLayout(beside({open, shipped_}));
   column->addWidget(back_);
   tareFrames_ = new WholeBox;
   tareFrames_->setObjectName("tareFrames");
   tareFrames_->setRange(1, 100000);
   tareFrames_->setSuffix(tr(" frames"));
-  tareFrames_->setToolTip(tr("Frames that are averaged as rest; more of them leave less noise in the zero"));
+  tareFrames_->setToolTip(tr("Number of frames averaged as rest; more frames reduce the noise of the zero"));
   tare_ = pushButton(tr("Tare"), "tare", tr(kTareTip));
-  clearTare_ = pushButton(tr("Clear"), "clearTare", tr("Back to the resistances of the design at rest"));
+  clearTare_ = pushButton(tr("Clear"), "clearTare",
+                          tr("Clears the tare: changes are then relative to the design's resistances at rest"));
   column->addLayout(beside({tare_, tareFrames_, clearTare_}));
   tareState_ = words("tareState", "hint");
   tareState_->setText(tr("Not tared."));
@@ -113,16 +116,16 @@ QWidget* LiveControlPanel::buildRecording() {
   auto* box = new QGroupBox(tr("Recording"));
   auto* column = new QVBoxLayout(box);
   record_ = pushButton(tr("Record"), "record",
-                       tr("Writes the raw reports from now on; flushed each second (R; Shift+R ends it)"));
+                       tr("Records the raw reports; written to disk every second (R; Shift+R ends it)"));
   record_->setCheckable(true);
-  pause_ = pushButton(tr("Hold views"), "pause", tr("Holds the pictures and curves; a recording goes on (Space)"));
+  pause_ = pushButton(tr("Freeze display"), "pause",
+                      tr("Freezes the pictures and curves; the board and a recording continue (Space)"));
   pause_->setCheckable(true);
   column->addWidget(record_);
   file_ = new QLineEdit(QDir::home().filePath("touch.palprec"));
   file_->setObjectName("recordFile");
-  file_->setToolTip(
-      tr("File for the raw reports; where it exists the next recording gets the date and time in its name"));
-  auto* choose = pushButton(tr("..."), "chooseRecordFile", tr("Chooses the file"));
+  file_->setToolTip(tr("File for the raw reports; if it exists, the next recording gets date and time in its name"));
+  auto* choose = pushButton(tr("..."), "chooseRecordFile", tr("Selects the file of the recording"));
   choose->setMaximumWidth(32);
   column->addLayout(beside({file_, choose}));
   recorded_ = words("recorded", "hint");
@@ -132,12 +135,12 @@ QWidget* LiveControlPanel::buildRecording() {
   mark_ = new QLineEdit;
   mark_->setObjectName("markText");
   mark_->setPlaceholderText(tr("mark 1"));
-  mark_->setToolTip(tr("What the event mark says, in the curves and in the recording"));
-  auto* mark = pushButton(tr("Mark"), "mark", tr("Marks this moment (M)"));
+  mark_->setToolTip(tr("Text of the event mark in the curves and in the recording"));
+  auto* mark = pushButton(tr("Mark"), "mark", tr("Adds an event mark now (M)"));
   column->addLayout(beside({mark_, mark}));
   auto* csv = pushButton(tr("Export CSV..."), "exportLive",
-                         tr("Of a recording every frame: time, forces and deviations [N], resistances [ohm], marks, "
-                            "temperature; of a board the frames that the curves hold, the last 60 s at most"));
+                         tr("Exports time, forces and deviations [N], resistances [ohm], marks and temperature: every "
+                            "frame of a recording, or of a board the frames in the curves, at most the last 60 s"));
   column->addLayout(beside({pause_, csv}));
   connect(file_, &QLineEdit::textChanged, this, &LiveControlPanel::lookForFile);
   connect(choose, &QPushButton::clicked, this, [this] {
@@ -171,18 +174,17 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmOn_->setObjectName("alarmOn");
   alarmOn_->setAccessibleName(tr("Alarm"));
   alarmOn_->setToolTip(
-      tr("Goes off where the decoded force on any area passes the limit, and is marked in the curves and in a "
-         "recording. A force that does not stand out of its deviation counts as none. Goes off while "
-         "another scene is seen too: the board is read and decoded then, which takes some per cent of a core"));
+      tr("Triggers when the decoded force on any area exceeds the limit; the alarm is marked in the curves and in a "
+         "recording. A force below its noise counts as zero. The alarm works while another scene is shown; the board "
+         "is then read and decoded, which uses a few per cent of a core."));
   alarmForce_ = new QComboBox;
   alarmForce_->setObjectName("alarmForce");
   for (const auto& [value, text] : kForceQuantities.all()) alarmForce_->addItem(text, static_cast<int>(value));
-  alarmForce_->setToolTip(
-      tr("The component of the force that is watched, on every area; |F| is the size of the force"));
+  alarmForce_->setToolTip(tr("Monitored component of the force on every area; |F| is the magnitude of the force"));
   alarmSide_ = new QComboBox;
   alarmSide_->setObjectName("alarmSide");
   for (const auto& [value, text] : kAlarmSides.all()) alarmSide_->addItem(tr(text), static_cast<int>(value));
-  alarmSide_->setToolTip(tr("On which side of the limit the alarm goes off; a push is negative in z"));
+  alarmSide_->setToolTip(tr("Side of the limit on which the alarm triggers; a push is negative in z"));
   alarmLimit_ = new NumberBox;
   alarmLimit_->setObjectName("alarmLimit");
   alarmLimit_->setRange(-1000, 1000);
@@ -190,7 +192,8 @@ QWidget* LiveControlPanel::buildAlarm() {
   alarmLimit_->setSingleStep(0.5);
   alarmLimit_->setSuffix(tr(" N"));
   alarmLimit_->setKeyboardTracking(false); // no alarm at a limit that is half typed
-  alarmLimit_->setToolTip(tr("The limit [N]; the alarm is over where the forces on all areas are back by 5 % of it"));
+  alarmLimit_->setToolTip(
+      tr("Limit of the alarm [N]; the alarm ends when the forces on all areas have returned by 5 % of it"));
   for (QWidget* widget : {static_cast<QWidget*>(alarmOn_), static_cast<QWidget*>(alarmForce_),
                           static_cast<QWidget*>(alarmSide_), static_cast<QWidget*>(alarmLimit_)})
     row->addWidget(widget);
@@ -227,23 +230,22 @@ QWidget* LiveControlPanel::buildScales() {
   change_->setObjectName("changeScale");
   for (const char* percent : {"0.005", "0.01", "0.02", "0.05", "0.1", "0.2", "0.3", "0.5", "1", "2", "5"})
     change_->addItem(QString::fromUtf8("\u00b1%1 %").arg(percent), QString(percent).toDouble());
-  change_->setToolTip(tr("End of the colour scale and of the curves of dR/R [%]"));
+  change_->setToolTip(tr("End of the colour scale and of the dR/R curves [%]"));
   window_ = new WholeBox;
   window_->setObjectName("window");
   window_->setRange(1, 60);
   window_->setSuffix(tr(" s"));
-  window_->setToolTip(tr("Time that the curves show [s]"));
+  window_->setToolTip(tr("Time span of the curves [s]"));
   form->addRow(tr("Arrows"), arrow_);
   form->addRow(tr("dR/R"), change_);
   form->addRow(tr("Curves"), window_);
   force_ = new QComboBox;
   force_->setObjectName("forceScale");
-  force_->addItem(tr("range of the network"), 0.0);
-  force_->addItem(tr("automatic"), -1.0);
+  force_->addItem(tr("Range of the network"), 0.0);
+  force_->addItem(tr("Automatic"), -1.0);
   for (const double newton : {0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
     force_->addItem(QString::fromUtf8("\u00b1%1 N").arg(newton), newton);
-  force_->setToolTip(
-      tr("Scale of the force curves: the range the network was trained for, what the curves need, or fixed"));
+  force_->setToolTip(tr("Scale of the force curves: the training range of the network, automatic, or fixed"));
   form->addRow(tr("Force"), force_);
   connect(force_, &QComboBox::currentIndexChanged, this, [this] {
     const double value = force_->currentData().toDouble();
@@ -334,11 +336,11 @@ void LiveControlPanel::displayRecording(const QString& file, const QString& prob
 
 void LiveControlPanel::displayTare(const LiveStatus& status) {
   const QString rest = QString::fromStdString(status.restName);
-  QString state = rest.isEmpty() ? tr("Not tared.") : tr("Not tared: counts from %1.").arg(rest);
-  if (status.tareOfRecording) state = tr("Tared as it was recorded.");
+  QString state = rest.isEmpty() ? tr("Not tared.") : tr("Not tared: changes are relative to %1.").arg(rest);
+  if (status.tareOfRecording) state = tr("Tared as recorded.");
   if (status.tared && !status.tareOfRecording)
-    state = tr("Tared: %1 frames are rest.").arg(status.tare ? status.tare->frames : 0);
-  if (status.taring) state = tr("Takes the tare while the sensor rests...");
+    state = tr("Tared (mean of %1 frames).").arg(status.tare ? status.tare->frames : 0);
+  if (status.taring) state = tr("Waiting for the sensor to be at rest, then taring...");
   if (tareState_->text() != state) tareState_->setText(state);
 }
 
@@ -355,12 +357,12 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
           networkRefused_.isEmpty() ? QString::fromStdString(status.decoderProblem) : networkRefused_);
   back_->setEnabled(!state.networkBefore.isEmpty());
   shipped_->setEnabled(!settings_.network.empty() || settings_.calibrated || !state.networkBefore.isEmpty());
-  const QString back = state.networkBefore.isEmpty() ? tr("Back to the network that was in use before; there is none")
-                                                     : tr("Back to: %1").arg(state.networkBefore);
+  const QString back = state.networkBefore.isEmpty() ? tr("Uses the previous network again; there is none yet")
+                                                     : tr("Uses again: %1").arg(state.networkBefore);
   if (back_->toolTip() != back) back_->setToolTip(back);
-  tare_->setText(status.taring          ? tr("Waits for rest")
-                 : status.driftsOn      ? tr("Tare: drifts on")
-                 : status.tareSuggested ? tr("Tare: it drifted")
+  tare_->setText(status.taring          ? tr("Waiting for rest")
+                 : status.driftsOn      ? tr("Tare (still drifting)")
+                 : status.tareSuggested ? tr("Tare now (drifted)")
                                         : tr("Tare"));
   tare_->setToolTip(status.tareSuggested ? driftWords(status) : tr(kTareTip));
   tare_->setDefault(status.tareSuggested);
@@ -372,7 +374,7 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
   if (std::exchange(records_, records) != records) lookForFile();
   record_->setChecked(records);
   record_->setText(records           ? state.replaying ? tr("Stop the copy") : tr("Stop recording")
-                             : state.replaying ? tr("Record a copy")
+                             : state.replaying ? tr("Record what is played")
                                      : tr("Record"));
   const QString problem =
       recordingProblem_.isEmpty() ? QString::fromStdString(status.recordingFailure) : recordingProblem_;
@@ -382,16 +384,16 @@ void LiveControlPanel::displayState(const LiveControlState& state) {
                         .arg(static_cast<double>(status.recordedReports) * kRecordedReport / kMegabyte, 0, 'f', 1)
                         .arg(status.recordingDropped);
   QString recorded = fileThere_.isEmpty()
-                         ? state.replaying ? tr("Nothing is recorded. A copy holds what is played from then on.")
-                                           : tr("Nothing is recorded.")
-                         : tr("%1 is there: the next one gets date and time in its name.").arg(fileThere_);
+                         ? state.replaying ? tr("Not recording. A copy contains what is played from its start on.")
+                                           : tr("Not recording.")
+                         : tr("%1 exists: the next recording gets date and time in its name.").arg(fileThere_);
   if (!problem.isEmpty())
     recorded = problem;
   else if (status.recordingWaits)
-    recorded = tr("Waits for the board, then goes on: %1").arg(recordedLast_);
+    recorded = tr("Waiting for the board, then continuing: %1").arg(recordedLast_);
   else if (!recordedLast_.isEmpty())
-    recorded = records ? tr("Records: %1").arg(recordedLast_)
-                       : tr("Recorded: %1; the next one gets a name of its own").arg(recordedLast_);
+    recorded = records ? tr("Recording: %1").arg(recordedLast_)
+                       : tr("Recorded: %1; the next recording gets a name of its own").arg(recordedLast_);
   setRole(*recorded_, problem.isEmpty() ? "hint" : "problem");
   setText(*recorded_, recorded);
 }

@@ -45,13 +45,13 @@ QWidget* LiveSourcePanel::buildDevices() {
   auto* column = new QVBoxLayout(box);
   devices_ = new QListWidget;
   devices_->setObjectName("devices");
-  devices_->setToolTip(tr("Boards that are plugged in, with their state; click one to listen to it"));
+  devices_->setToolTip(tr("Boards that are plugged in, with their state; click a board to listen to it"));
   devices_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   devices_->setTextElideMode(Qt::ElideMiddle);
   column->addWidget(devices_);
-  again_ = new QPushButton(tr("Open again"));
+  again_ = new QPushButton(tr("Reopen"));
   again_->setObjectName("openAgain");
-  again_->setToolTip(tr("Opens the source once more; a recording plays from its start"));
+  again_->setToolTip(tr("Opens the source again; a recording plays from its start"));
   auto* open = new QPushButton(tr("Open a recording..."));
   open->setObjectName("openRecording");
   open->setToolTip(tr("Plays a file that was recorded here or on the command line"));
@@ -59,11 +59,10 @@ QWidget* LiveSourcePanel::buildDevices() {
   row->addWidget(open);
   row->addWidget(again_);
   column->addLayout(row);
-  another_ = new QPushButton(tr("Another board beside"));
+  another_ = new QPushButton(tr("Add board"));
   another_->setObjectName("anotherBoard");
-  another_->setToolTip(
-      tr("Shows one more board beside this one, with settings, tare and recording of its own; where no "
-         "other is plugged in, a simulated one"));
+  another_->setToolTip(tr("Shows another board next to this one, with its own settings, tare and recording; without a "
+                          "second board it is a simulated one"));
   column->addWidget(another_);
   connect(another_, &QPushButton::clicked, this, &LiveSourcePanel::anotherAsked);
   connect(devices_, &QListWidget::itemClicked, this,
@@ -83,11 +82,11 @@ QWidget* LiveSourcePanel::buildScan() {
   rate_->setRange(1, 8000);
   rate_->setSuffix(tr(" reports/s"));
   rate_->setKeyboardTracking(false);
-  rate_->setToolTip(tr("Reports a second that the board is asked to send [1/s]; two reports are one row-wire of 30"));
+  rate_->setToolTip(tr("Requested reports per second [1/s]; one row-wire of 30 readings takes two reports"));
   rows_ = new QComboBox;
   rows_->setObjectName("rows");
-  rows_->addItem(tr("all row-wires"));
-  rows_->setToolTip(tr("One row-wire alone, as in the paper, is scanned ten times as often"));
+  rows_->addItem(tr("All row-wires"));
+  rows_->setToolTip(tr("Scanned row-wires; a single row-wire, as in the paper, is read ten times as often"));
   form->addRow(tr("Rate"), rate_);
   form->addRow(tr("Rows"), rows_);
   connect(rate_, &QSpinBox::valueChanged, this,
@@ -137,7 +136,7 @@ void LiveSourcePanel::listRows(int rowWires) {
   const QSignalBlocker quiet(rows_);
   const int wanted = 1 + std::max(rowWires, settings_.row + 1);
   while (rows_->count() > wanted) rows_->removeItem(rows_->count() - 1);
-  while (rows_->count() < wanted) rows_->addItem(tr("row-wire %1 alone").arg(rows_->count() - 1));
+  while (rows_->count() < wanted) rows_->addItem(tr("Row-wire %1 alone").arg(rows_->count() - 1));
   rows_->setCurrentIndex(settings_.row + 1);
 }
 
@@ -163,7 +162,7 @@ void LiveSourcePanel::listDevices(const LiveSourceState& state) {
     const bool twins = std::count_if(state.boards.begin(), state.boards.end(),
                                      [&](const HidBoard& other) { return other.serial == board.serial; }) > 1;
     lines.push_back({stated(QString::fromStdString(board.serial) + tr(" at ") + place, inUse,
-                            !board.free        ? tr("shown beside")
+                            !board.free        ? tr("shown in another view")
                             : board.permission ? tr("ready")
                                                : tr("no permission")),
                      LiveSourceKind::Board, twins ? place : QString::fromStdString(board.serial)});

@@ -76,16 +76,16 @@ SimulationPanel::SimulationPanel(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* box = new QGroupBox(tr("Simulated board"));
   auto* form = form_ = new QFormLayout(box);
-  plug_ = new QPushButton(tr("Pull out"));
+  plug_ = new QPushButton(tr("Unplug"));
   plug_->setObjectName("plug");
-  plug_->setToolTip(tr("Pulls the simulated board out, or puts it in again"));
+  plug_->setToolTip(tr("Unplugs the simulated board, or plugs it in again"));
   form->addRow(plug_);
   buildDesign(*form);
   buildTouch(*form);
   buildDisturbances(*form);
   buildFaults(*form);
   column->addWidget(box);
-  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Pull out")); });
+  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Unplug")); });
 }
 
 void SimulationPanel::buildDesign(QFormLayout& form) {
@@ -94,9 +94,8 @@ void SimulationPanel::buildDesign(QFormLayout& form) {
   design_->setWordWrap(true);
   simulate_ = new QPushButton(tr("Simulate the project's design"));
   simulate_->setObjectName("simulateDesign");
-  simulate_->setToolTip(
-      tr("Solves 24 loads an area of the project's design, and trains a network on them where none is "
-         "chosen; takes a while, Esc cancels"));
+  simulate_->setToolTip(tr("Solves 24 loads per area of the project's design, and trains a network on them if none is "
+                           "selected; this takes a while, Esc cancels"));
   form.addRow(design_);
   form.addRow(simulate_);
   connect(simulate_, &QPushButton::clicked, this, &SimulationPanel::designAsked);
@@ -106,8 +105,9 @@ void SimulationPanel::buildDesign(QFormLayout& form) {
 void SimulationPanel::buildTouch(QFormLayout& form) {
   moving_ = new QCheckBox(tr("Moving indenter"));
   moving_->setObjectName("movingIndenter");
-  moving_->setToolTip(tr("<qt>A sphere wanders over the face and presses, in place of a finger on the load areas; its "
-                         "true place is drawn beside the decoded one. Solved once a design, which takes a while</qt>"));
+  moving_->setToolTip(
+      tr("<qt>A sphere moves over the face and presses, instead of a finger on the load areas; its true position is "
+         "drawn next to the decoded one. This is solved once per design and takes a while.</qt>"));
   form.addRow(moving_);
   connect(moving_, &QCheckBox::toggled, this, [this](bool on) {
     edit(tr("moving indenter"), [&](LiveSettings& s) { s.simulation.moving = on; });
@@ -116,13 +116,12 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
   held_ = new QCheckBox(tr("Touch by hand"));
   held_->setObjectName("touchHeld");
   held_->setToolTip(
-      tr("<qt>Holds the touch below; press an area of the picture to move it there, and drag from there for "
-         "the shear; in the picture Return takes it in hand and lets go, the arrows move it, + and - press, Shift and "
-         "the arrows shear</qt>"));
+      tr("<qt>Applies the touch below. Press an area in the picture to move the touch there, and drag for shear. With "
+         "the keyboard: Return takes or releases it, arrows move it, + and - press, Shift with arrows shears.</qt>"));
   form.addRow(held_);
   area_ = new WholeBox;
   area_->setObjectName("touchArea");
-  area_->setToolTip(tr("Load area that is pressed; areas count from 0"));
+  area_->setToolTip(tr("Pressed load area; areas count from 0"));
   form.addRow(tr("Area"), area_);
   auto* at = places_ = new QHBoxLayout;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -133,13 +132,14 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
     box->setDecimals(2);
     box->setSingleStep(0.5);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setToolTip(tr("Place of the indenter; in the picture: drag it, or the arrow keys"));
+    box->setToolTip(
+        tr("Position of the indenter; it can also be dragged in the picture, or moved with the arrow keys"));
     at->addWidget(box);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this, axis](double value) {
       edit(tr("simulated touch"), [&](LiveSettings& s) { s.simulation.heldPlace_mm[axis] = value; });
     });
   }
-  form.addRow(tr("Place [mm]"), at);
+  form.addRow(tr("Position [mm]"), at);
   auto* row = new QHBoxLayout;
   constexpr std::array<const char*, 3> kNames{"Fx", "Fy", "Fz"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -174,17 +174,17 @@ void SimulationPanel::follow(Box* box, Signal signal, const QString& what, Chang
 /// What makes the readings of a board that works differ from those of a perfect one.
 void SimulationPanel::buildDisturbances(QFormLayout& form) {
   noise_ = numberBox("noise", {"5e-6", "1e-5", "1e-4"},
-                     tr("Noise of a reading, relative to R (rms): 5e-6 is a good board, 1e-4 a plain one"));
+                     tr("Relative noise of a reading (rms): 5e-6 (5 ppm) is a good board, 1e-4 a plain one"));
   warming_ = new NumberBox;
   warming_->setObjectName("warming");
   warming_->setRange(0, 100);
   warming_->setSuffix(tr(" K"));
-  warming_->setToolTip(tr("The board warms up by this much [K] with a time constant of 5 min; R drifts by 0.1 %/K"));
+  warming_->setToolTip(tr("Warming of the board [K], with a time constant of 5 min; R drifts by 0.1 %/K"));
   hysteresis_ = new NumberBox;
   hysteresis_->setObjectName("hysteresis");
   hysteresis_->setRange(0, 100);
   hysteresis_->setSuffix(tr(" %"));
-  hysteresis_->setToolTip(tr("Share of the change of R that goes through a play of 1e-4 of R [%]"));
+  hysteresis_->setToolTip(tr("Share of dR that is subject to backlash hysteresis of width 1e-4 R [%]"));
   form.addRow(tr("Noise"), noise_);
   form.addRow(tr("Warming"), warming_);
   form.addRow(tr("Hysteresis"), hysteresis_);
@@ -208,17 +208,16 @@ void SimulationPanel::buildDisturbances(QFormLayout& form) {
 void SimulationPanel::buildFaults(QFormLayout& form) {
   openRow_ =
       wireBox("openRow",
-              tr("This row-wire is broken: a network that reads it gives no forces, one of the other row-wires does"));
-  openColumn_ =
-      wireBox("openColumn",
-              tr("This column-wire is broken: every network reads it, so that there are no forces until it is mended"));
+              tr("Breaks this row-wire: a network that reads it gives no forces, a network of other row-wires does"));
+  openColumn_ = wireBox(
+      "openColumn", tr("Breaks this column-wire: every network reads it, so there are no forces until it is repaired"));
   dropEvery_ = new LossBox;
   dropEvery_->setObjectName("dropEvery");
   dropEvery_->setRange(0, 100000);
-  dropEvery_->setToolTip(tr("Every n-th report is lost on its way; 1 is all of them"));
+  dropEvery_->setToolTip(tr("Loses every n-th report on its way; 1 loses all"));
   form.addRow(tr("Broken row-wire"), openRow_);
   form.addRow(tr("Broken column-wire"), openColumn_);
-  form.addRow(tr("Lose every n-th"), dropEvery_);
+  form.addRow(tr("Drop every n-th report"), dropEvery_);
   follow(openRow_, &QSpinBox::valueChanged, tr("broken row-wire"),
          [](SimulationSettings& s, int value) { s.openRow = value; });
   follow(openColumn_, &QSpinBox::valueChanged, tr("broken column-wire"),
@@ -278,7 +277,7 @@ void SimulationPanel::showBrokenWires() {
 }
 
 void SimulationPanel::displayState(const SimulationState& state) {
-  plug_->setText(state.pluggedIn ? tr("Pull out") : tr("Plug in"));
+  plug_->setText(state.pluggedIn ? tr("Unplug") : tr("Plug in"));
   const QSignalBlocker quiet(area_), quietRow(openRow_), quietColumn(openColumn_);
   area_->setMaximum(std::max(0, state.areas - 1));
   openRow_->setMaximum(state.rowWires - 1);
@@ -286,10 +285,10 @@ void SimulationPanel::displayState(const SimulationState& state) {
   showBrokenWires();
   const bool moving = settings_.simulation.moving;
   const QString words = state.solving               ? tr("Solving the project's design...")
-                        : state.ownDesign && moving ? tr("A sphere moves over the project's design.")
-                        : state.ownDesign           ? tr("It simulates the project's design.")
+                        : state.ownDesign && moving ? tr("Simulates a sphere that moves over the project's design.")
+                        : state.ownDesign           ? tr("Simulates the project's design.")
                         : moving                    ? tr("The moving indenter is not solved yet.")
-                                                    : tr("It simulates the paper's design, not the project's.");
+                                                    : tr("Simulates the paper's design, not the project's.");
   if (design_->text() != words) design_->setText(words);
   simulate_->setEnabled(!state.ownDesign && !state.solving);
 }

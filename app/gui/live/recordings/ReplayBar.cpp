@@ -78,7 +78,7 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   buildLoop();
   auto* board = new QPushButton(tr("Back to the board"));
   board->setObjectName("backToBoard");
-  board->setToolTip(tr("Ends the replay and listens to the first board again, or to the simulated one"));
+  board->setToolTip(tr("Ends the replay and returns to the first board, or to the simulated board"));
   auto* upper = new QHBoxLayout;
   for (QPushButton* button : {pause_, back_, step_}) upper->addWidget(button);
   upper->addWidget(line_, 1);
@@ -89,7 +89,7 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   lower->addWidget(speed_);
   lower->addWidget(loop_);
   lower->addWidget(from_);
-  lower->addWidget(new QLabel(tr("to")));
+  lower->addWidget(new QLabel(tr("To")));
   lower->addWidget(to_);
   lower->addWidget(marks_, 1);
   lower->addWidget(board);
@@ -102,21 +102,21 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
 void ReplayBar::buildTimeLine() {
   pause_ = new QPushButton(tr("Pause"));
   pause_->setObjectName("replayPause");
-  pause_->setToolTip(tr("Pauses the recording, or goes on; from its start where it has ended (Space)"));
+  pause_->setToolTip(tr("Pauses the recording or continues it; restarts it at its end (Space)"));
   step_ = new QPushButton(tr("Next frame"));
   step_->setObjectName("replayStep");
-  step_->setToolTip(tr("Goes on by one frame and pauses (Period)"));
+  step_->setToolTip(tr("Steps forward by one frame and pauses (Period)"));
   back_ = new QPushButton(tr("Frame back"));
   back_->setObjectName("replayBack");
-  back_->setToolTip(tr("Goes back by one frame and pauses (Comma)"));
+  back_->setToolTip(tr("Steps back by one frame and pauses (Comma)"));
   line_ = new TimeLine;
   line_->setObjectName("replayLine");
-  line_->setAccessibleName(tr("Place in the recording"));
+  line_->setAccessibleName(tr("Position in the recording"));
   line_->setRange(0, kSteps);
   line_->setPageStep(kSteps / 20);
   line_->setSingleStep(kSteps / 200);
-  line_->setToolTip(tr("Place in the recording: click or drag to go there"));
-  place_ = timeBox("replayPlace", tr("Place in the recording [s]: type a time to go there"));
+  line_->setToolTip(tr("Position in the recording: click or drag to go there"));
+  place_ = timeBox("replayPlace", tr("Position in the recording [s]: enter a time to go there"));
   place_->setKeyboardTracking(false);
   length_ = new QLabel;
   length_->setObjectName("replayLength");
@@ -145,18 +145,18 @@ void ReplayBar::buildLoop() {
   speed_->setEditable(true);
   speed_->setInsertPolicy(QComboBox::NoInsert);
   speed_->addItems({"0.1", "0.5", "1", "2", "10", "0"});
-  speed_->setToolTip(tr("Times as fast as it was recorded; 0: as fast as it can be read"));
+  speed_->setToolTip(tr("Replay speed relative to the recording; 0 is as fast as the file can be read"));
   loop_ = new QCheckBox(tr("Loop from"));
   loop_->setObjectName("replayLoop");
-  loop_->setToolTip(tr("Plays between these two times again and again"));
+  loop_->setToolTip(tr("Plays between these two times repeatedly"));
   marks_ = new QComboBox;
   marks_->setObjectName("replayMarks");
-  marks_->setToolTip(tr("Event marks of the recording: choose one to go there"));
+  marks_->setToolTip(tr("Event marks of the recording: select one to go there"));
   marks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(marks_, &QComboBox::activated, this, [this](int) {
     if (marks_->currentData().isValid()) goTo(marks_->currentData().toDouble());
   });
-  from_ = timeBox("loopFrom", tr("Begin of the loop [s]"));
+  from_ = timeBox("loopFrom", tr("Start of the loop [s]"));
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
   connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
     const auto value = typedNumber(text);
@@ -186,7 +186,7 @@ void ReplayBar::loop() {
 void ReplayBar::goTo(double to_s) {
   if (loop_->isChecked() && (to_s < from_->value() || to_s > to_->value())) {
     loop_->setChecked(false);
-    emit message(tr("The loop is off: %1 s lies outside of it.").arg(to_s, 0, 'f', 2));
+    emit message(tr("The loop is off: %1 s is outside of it.").arg(to_s, 0, 'f', 2));
   }
   if (host_.status().state == LiveState::Ended) host_.setPaused(true); // it stands there, instead of ending again
   host_.seek(to_s);
@@ -195,7 +195,7 @@ void ReplayBar::goTo(double to_s) {
 void ReplayBar::listMarks() {
   marks_->clear();
   const std::vector<ReplayMark> marks = host_.replay()->marks();
-  marks_->addItem(marks.empty() ? tr("no marks") : tr("Go to a mark..."));
+  marks_->addItem(marks.empty() ? tr("No marks") : tr("Go to a mark..."));
   for (const ReplayMark& mark : marks)
     marks_->addItem(tr("%1 s: %2").arg(mark.at_s, 0, 'f', 2).arg(QString::fromStdString(mark.text)), mark.at_s);
   marks_->setEnabled(!marks.empty());
@@ -236,7 +236,7 @@ void ReplayBar::displayState() {
   } else if (replay->marks().size() != listedMarks_) { // a long recording is still read
     listMarks();
   }
-  pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Go on") : tr("Pause"));
+  pause_->setText(ended ? tr("Play again") : host_.paused() ? tr("Continue") : tr("Pause"));
   step_->setEnabled(!ended);
   const double position_s = ended ? length_s : replay->position_s.load();
   if (!place_->hasFocus()) { // else a number is chosen or typed there

@@ -36,7 +36,7 @@ SendPanel::SendPanel(QWidget* parent) : QWidget(parent) {
   head_ = new QToolButton;
   head_->setObjectName("sendForces");
   head_->setText(tr("Send forces to other programs"));
-  head_->setToolTip(tr("Forces of each frame by UDP, OSC, ZeroMQ or as lines of CSV"));
+  head_->setToolTip(tr("Sends the forces of each frame by UDP, OSC, ZeroMQ or as CSV lines"));
   head_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   head_->setAutoRaise(true);
   head_->setCheckable(true);
@@ -55,14 +55,14 @@ QWidget* SendPanel::build() {
   list_->setObjectName("receivers");
   list_->setAccessibleName(tr("Receivers of the forces"));
   list_->setRootIsDecorated(false);
-  list_->setHeaderLabels({tr("receiver"), tr("handed over"), tr("dropped")});
+  list_->setHeaderLabels({tr("receiver"), tr("sent"), tr("dropped")});
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kTo, QHeaderView::Stretch);
   list_->header()->setSectionResizeMode(kSent, QHeaderView::ResizeToContents);
   list_->header()->setSectionResizeMode(kDropped, QHeaderView::ResizeToContents);
   list_->setFixedHeight((kLines + 2) * list_->fontMetrics().lineSpacing());
-  list_->setToolTip(tr("Ticked ones get each frame; frames that a receiver does not take in time are dropped, and "
-                       "nothing else changes"));
+  list_->setToolTip(tr("Ticked receivers get each frame. Frames that a receiver does not take in time are dropped; "
+                       "nothing else is affected."));
   column->addWidget(list_);
   auto* row = new QHBoxLayout;
   address_ = new QLineEdit;
@@ -117,7 +117,7 @@ void SendPanel::remove() {
   if (place < 0) return;
   std::vector<LiveReceiver> next = settings_.receivers;
   next.erase(next.begin() + place);
-  edit(tr("receiver taken away"), next);
+  edit(tr("receiver removed"), next);
 }
 
 void SendPanel::edit(const QString& what, const std::vector<LiveReceiver>& receivers) {
@@ -173,10 +173,10 @@ void SendPanel::displayState(const std::vector<SendingState>& states) {
       put(kSent, tr("off"));
       put(kDropped, {});
       if (settings_.receivers[k].heldBack)
-        problems << tr("This project sends forces to %1: tick it, where that is wanted.").arg(to);
+        problems << tr("This project sends forces to %1: tick it to allow this.").arg(to);
       break;
     case SendingState::Kind::Opening:
-      put(kSent, tr("opens..."));
+      put(kSent, tr("opening..."));
       put(kDropped, {});
       break;
     case SendingState::Kind::Refused:

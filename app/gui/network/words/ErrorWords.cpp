@@ -42,7 +42,7 @@ QString table(const std::vector<Column>& columns, const QString& title, bool pla
     rows += "</tr>";
   }
   for (int d = 0; places && d < 2; ++d) {
-    rows += QObject::tr("<tr><td>place %1</td>").arg(QLatin1Char("xy"[d]));
+    rows += QObject::tr("<tr><td>position %1</td>").arg(QLatin1Char("xy"[d]));
     for (const Column& column : columns)
       rows += cell(d < column.places.size() ? inWords(column.places[d]) + column.placeUnit : QString("-"));
     rows += "</tr>";
@@ -134,19 +134,17 @@ QString guessWords(const NetworkSession& session, const NetworkFit& fit) {
   QStringList worse;
   const auto compare = [&worse](const QString& what, double ours, double guessed, const QString& unit) {
     if (guessed > 0 && ours > kClearly * guessed)
-      worse << QObject::tr("%1 %3 %4 in place of %2 %4").arg(what, inWords(guessed), inWords(ours), unit);
+      worse << QObject::tr("%1 %3 %4 instead of %2 %4").arg(what, inWords(guessed), inWords(ours), unit);
   };
   for (Eigen::Index k = 0; k < std::min<Eigen::Index>(3, its.forces_N.size()); ++k)
     compare(QString("F%1").arg(QLatin1Char("xyz"[k])), its.forces_N(k), guess.forces_N(k), "N");
   for (Eigen::Index k = 0; k < its.places_mm.size(); ++k)
-    compare(QObject::tr("place %1").arg(QLatin1Char("xy"[k])), its.places_mm(k), guess.places_mm(k), "mm");
+    compare(QObject::tr("position %1").arg(QLatin1Char("xy"[k])), its.places_mm(k), guess.places_mm(k), "mm");
   if (worse.isEmpty()) return {};
   const bool noise = fit.settings.noise < fit.settings.testNoise, all = fit.settings.rows == "all";
   return "<div>" +
-         QObject::tr("Warning: worse than knowing nothing, which is to say the mean of the training samples always "
-                     "(RMSE): %1.")
-             .arg(worse.join(", ")) +
-         (noise ? QObject::tr(" The noise drowns it: train it with the noise of the test.")
+         QObject::tr("Warning: worse than always predicting the training mean (RMSE): %1.").arg(worse.join(", ")) +
+         (noise ? QObject::tr(" The test noise is too high for it: train with the noise of the test.")
           : all ? QObject::tr(" More samples or another decoder may help.")
                 : QObject::tr(" More samples, all row-wires or another decoder may help.")) +
          "</div>";
@@ -154,7 +152,7 @@ QString guessWords(const NetworkSession& session, const NetworkFit& fit) {
 
 QString placeWords(const NetworkFit& fit) {
   if (!fit.error.place) return {};
-  return QObject::tr(" Its places are %1 mm off in the median, %2 and %3 mm (RMS) along x and y.")
+  return QObject::tr(" Its positions are off by %1 mm in the median, %2 and %3 mm (RMS) along x and y.")
       .arg(fit.error.place->median_mm, 0, 'g', 3)
       .arg(fit.error.place->rms_mm.x(), 0, 'g', 3)
       .arg(fit.error.place->rms_mm.y(), 0, 'g', 3);
@@ -167,7 +165,8 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const S
     if (bounds.empty()) return {};
     const ErrorsOverBounds over = errorsOverBounds(bounds, fit.prediction.forces_N - test.forces_N,
                                                    fit.prediction.places_mm - test.touchedPlaces_mm());
-    return QObject::tr(" Bounds (Cramer-Rao, %1, medians): Fz %2 N, place %3 mm; its errors are %4 and %5 times that.")
+    return QObject::tr(
+               " Bounds (Cramer-Rao, %1, medians): Fz %2 N, position %3 mm; its errors are %4 and %5 times the bounds.")
         .arg(who)
         .arg(over.force_N, 0, 'g', 3)
         .arg(over.place_mm, 0, 'g', 3)
@@ -175,24 +174,25 @@ QString boundWords(const NetworkSession& session, const NetworkFit& fit, const S
         .arg(over.placeRatio, 0, 'g', 3);
   };
   return words(QObject::tr("indenter known"), touches->known) +
-         words(QObject::tr("indenter's size unknown"), touches->sizeUnknown) +
-         words(QObject::tr("at each touch, by what it has learned"), touches->learned);
+         words(QObject::tr("unknown indenter size"), touches->sizeUnknown) +
+         words(QObject::tr("at each touch, by its own model"), touches->learned);
 }
 
 QString scatterWords(const NetworkSession& session, const NetworkFit& fit) {
   if (!session.fitIsCurrent() || fit.prediction.forces_N.cols() == 0) return {};
   // Of n normal errors it scatters by 1 / sqrt(2 n) of itself.
   const auto count = static_cast<double>(fit.prediction.forces_N.cols());
-  return QObject::tr(" RMSE of %1 test samples scatter by %2 %.").arg(count).arg(100 / std::sqrt(2 * count), 0, 'g', 2);
+  return QObject::tr(" RMSE known to about %2 % (%1 test samples).")
+      .arg(count)
+      .arg(100 / std::sqrt(2 * count), 0, 'g', 2);
 }
 
 QString adviceWords(const NetworkSession& session, const NetworkFit& fit) {
   if (!session.fitIsCurrent() || fit.settings.testNoise > 0 || session.samples()->training.hasPlaces()) return {};
-  const QString paper = QObject::tr(
-      " The paper does not say how it scaled its inputs, so that its spreads are not ours: its smallest errors "
-      "compare, places on the axis do not.");
+  const QString paper = QObject::tr(" The paper does not say how it scaled its inputs, so its spreads differ from "
+                                    "these: compare the smallest errors, not their positions on the axis.");
   return (fit.settings.mode == DecoderMode::Paper ? paper : QString()) +
-         QObject::tr(" A noise of the test puts the noise bound (Cramer-Rao) beside the errors.");
+         QObject::tr(" Set \"Test noise\" to see the Cramer-Rao noise bound with the errors.");
 }
 
 QString warningWords(const NetworkFit& fit) {

@@ -36,7 +36,7 @@ QString systemWords(const NetworkFit& fit) {
   if (!fit.settings.scaling) words << tr("scaler %1").arg(trained(name(used.scaling)));
   if (!fit.settings.tail) words << tr("tail %1").arg(trained(kTails.name(used.tail)));
   if (!fit.settings.solver) words << tr("solver %1").arg(trained(name(used.method)));
-  return words.isEmpty() ? QString() : tr("; the mode says %1").arg(words.join(", "));
+  return words.isEmpty() ? QString() : tr("; from the mode: %1").arg(words.join(", "));
 }
 
 void addChange(QStringList& all, const QString& what, const QString& before, const QString& after) {
@@ -55,7 +55,7 @@ QStringList differences(const NetworkSettings& then, const NetworkSettings& now)
   for (const TrainOption& option : trainOptionTable())
     add(QString::fromStdString(option.label), optionWords(option, then), optionWords(option, now));
   add(tr("spread"), spread(then), spread(now));
-  add(tr("noise of the test"), percent(then.testNoise), percent(now.testNoise));
+  add(tr("test noise"), percent(then.testNoise), percent(now.testNoise));
   return all;
 }
 
@@ -105,7 +105,7 @@ QString originWords(const NetworkFit& fit) {
     return share > 0 ? tr("for noise %1").arg(percent(share)) : tr("without noise");
   };
   words += tr(", trained %1").arg(noise(fit.settings.noise));
-  if (fit.settings.target == DecoderTarget::ForceAndPlace) words += tr(", for force and place");
+  if (fit.settings.target == DecoderTarget::ForceAndPlace) words += tr(", for force and position");
   words += fit.settings.testNoise > 0 ? tr(", tested with noise %1").arg(percent(fit.settings.testNoise))
                                       : tr(", tested without noise");
   return words;
@@ -124,43 +124,44 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now) {
   const NetworkFit* fit = session.fit();
   if (fit == nullptr) return {};
   if (!session.upToDate())
-    return tr("Of %1: undo the change, or generate samples and train again.").arg(earlierDesign(session));
-  if (!session.fitIsCurrent()) return tr("Of other samples than those that are there now: train again.");
+    return tr("For %1: undo the change, or generate samples and train again.").arg(earlierDesign(session));
+  if (!session.fitIsCurrent()) return tr("For other samples than the present ones: train again.");
   if (!fit->file.isEmpty()) return {};
   const QStringList changes = differences(fit->settings, now);
-  return changes.isEmpty() ? QString()
-                           : tr("Trained with other settings (%1): train again, or go back in Trained networks.")
-                                 .arg(changes.join("; "));
+  return changes.isEmpty()
+             ? QString()
+             : tr("Trained with other settings (%1): train again, or restore a network under Trained networks.")
+                   .arg(changes.join("; "));
 }
 
 QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now) {
   if (session.trials().empty()) return {};
-  if (!session.upToDate()) return tr("The comparison is of %1.").arg(earlierDesign(session));
+  if (!session.upToDate()) return tr("The comparison belongs to %1.").arg(earlierDesign(session));
   NetworkSettings then = session.trialsSettings();
   then.decoder = now.decoder;
   const QStringList changes = differences(then, now);
-  return changes.isEmpty() ? QString() : tr("The comparison is of other settings (%1).").arg(changes.join("; "));
+  return changes.isEmpty() ? QString() : tr("The comparison belongs to other settings (%1).").arg(changes.join("; "));
 }
 
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now) {
   if (session.sweepPoints().empty()) return {};
-  if (!session.upToDate()) return tr("The sweep is of %1.").arg(earlierDesign(session));
+  if (!session.upToDate()) return tr("The sweep belongs to %1.").arg(earlierDesign(session));
   NetworkSettings then = session.sweepSettings();
   then.chosenSpread = now.chosenSpread;
   then.automaticSpread = now.automaticSpread;
   const QStringList changes = differences(then, now);
-  return changes.isEmpty() ? QString() : tr("The sweep is of other settings (%1).").arg(changes.join("; "));
+  return changes.isEmpty() ? QString() : tr("The sweep belongs to other settings (%1).").arg(changes.join("; "));
 }
 
 QString staleListReason(const NetworkSession& session) {
   if (session.kept().empty() || session.upToDate()) return {};
-  return tr("The networks are of %1.").arg(earlierDesign(session));
+  return tr("The networks belong to %1.").arg(earlierDesign(session));
 }
 
 QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
   const NetworkSettings& then = session.trialsSettings();
   if (session.trials().empty()) return tr("Compare all decoders trains each kind on the same samples.");
-  QString words = tr("All from %1s, row-wires %2, noise %3, noise of the test %4.")
+  QString words = tr("All from %1s, row-wires %2, noise %3, test noise %4.")
                       .arg(trained(name(then.input)), trained(then.rows), percent(then.noise), percent(then.testNoise));
   if (const auto best = bestTrial(session.trials())) {
     const DecoderTrial& trial = session.trials()[*best];
@@ -177,7 +178,7 @@ QString trialsWords(const NetworkSession& session, const NetworkSettings& now) {
                         triple(ofForces(others[*next].error.rmsePercentOfRange, session.samples()), "%"));
     words += ".";
     if (place)
-      words += tr(" Smallest error of the place: %1, %2 mm in the median.")
+      words += tr(" Smallest error of the position: %1, %2 mm in the median.")
                    .arg(trained(name(session.trials()[*place].kind)))
                    .arg(session.trials()[*place].place->median_mm, 0, 'g', 3);
   }
@@ -204,10 +205,10 @@ QString fitWords(const NetworkSession& session, const NetworkSettings& now, cons
   const NetworkFit* fit = session.fit();
   if (fit == nullptr && session.openingResults()) return tr("The networks of the project are being opened.");
   if (fit == nullptr)
-    return session.samples() == nullptr ? tr("No network yet: generate samples, or open a file of them, then train.")
+    return session.samples() == nullptr ? tr("No network yet: generate or open samples, then train.")
            : session.kept().empty()
-               ? tr("No network of these samples yet: train one.")
-               : tr("No network of these samples yet: train one, or go back to one in Trained networks.");
+               ? tr("No network for these samples yet: train one.")
+               : tr("No network for these samples yet: train one, or restore one under Trained networks.");
   QString name = fit->file.isEmpty() ? tr("Trained here") : tr("Opened: %1").arg(QFileInfo(fit->file).fileName());
   if (fit->file.isEmpty() && session.samples() != nullptr && fit->madeFrom != session.samples()->settings)
     name += tr(" on other samples (%1, seed %2)").arg(countWords(fit->madeFrom)).arg(fit->madeFrom.seed);

@@ -51,10 +51,9 @@ QString madeWords(const NetworkSamples& samples) {
   QString words;
   if (samples.seconds > 0) words += QObject::tr(", made in %1").arg(roughly(samples.seconds));
   if (samples.batchError > 0)
-    words += QObject::tr("; relative batch error against full Newton %1").arg(samples.batchError, 0, 'g', 2);
+    words += QObject::tr("; solver error %1 (against full Newton)").arg(samples.batchError, 0, 'g', 2);
   if (samples.redrawn > 0)
-    words +=
-        QObject::tr("; touches without an equilibrium, in whose places others were drawn: %1").arg(samples.redrawn);
+    words += QObject::tr("; touches without an equilibrium, replaced by others: %1").arg(samples.redrawn);
   if (!samples.doubts.isEmpty()) words += "; " + samples.doubts;
   return words;
 }
@@ -63,14 +62,15 @@ QString madeWords(const NetworkSamples& samples) {
 QString openedWords(const NetworkSamples& samples, const QString& file) {
   QString words = QObject::tr(" from %1 ").arg(QFileInfo(file).fileName());
   if (samples.training.origin.imported())
-    words += samples.ofNoDesign ? QObject::tr("(measured, of no design that is open)") : QObject::tr("(measured)");
+    words += samples.ofNoDesign ? QObject::tr("(measured; their design is not open)") : QObject::tr("(measured)");
   else
     words += QObject::tr("(%1, seed %2)").arg(countWords(samples.settings)).arg(samples.settings.seed);
   if (!samples.split) return words;
   const std::filesystem::path beside = testFileOf(samples.file.toStdString());
   const QString test = QString::fromStdString(beside.filename().string());
-  words += std::filesystem::exists(beside) ? QObject::tr("; every fifth one tests, %1 was not taken").arg(test)
-                                           : QObject::tr("; every fifth one tests, as no %1 lies beside it").arg(test);
+  words += std::filesystem::exists(beside)
+               ? QObject::tr("; every fifth sample is used for testing, %1 could not be used").arg(test)
+               : QObject::tr("; every fifth sample is used for testing, as there is no %1").arg(test);
   return words;
 }
 
@@ -91,11 +91,11 @@ QString samplesWords(const NetworkSession& session) {
 
 QString plannedWords(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh) {
   const int count = samples.touches ? samples.touches->count : samples.perArea * design.areas.count();
-  const QString words = QObject::tr("Makes %1 samples for training and as many for testing").arg(count);
+  const QString words = QObject::tr("Generates %1 samples for training and as many for testing").arg(count);
   const auto time = sampleTime(samples, design, mesh);
-  if (!time) return words + QObject::tr("; its time on this mesh is not known yet.");
-  return words + (time->measuredHere ? QObject::tr(", in about %1, by the last ones here.")
-                                     : QObject::tr(", in about %1; not yet done here."))
+  if (!time) return words + QObject::tr("; the time on this mesh is not known yet.");
+  return words + (time->measuredHere ? QObject::tr(", in about %1 (last run).")
+                                     : QObject::tr(", in about %1 (estimate)."))
                      .arg(roughly(time->seconds));
 }
 

@@ -61,7 +61,7 @@ QString sweepWords(const NetworkSettings& network) {
 
 QString optionWords(const TrainOption& option, const TrainOptions& options) {
   const std::string text = option.text(options);
-  if (text.empty()) return QObject::tr("as the mode says");
+  if (text.empty()) return QObject::tr("from mode");
   return option.form == TrainOption::Form::Share ? percentOf(numberIn(text).value()) : QString::fromStdString(text);
 }
 
@@ -75,17 +75,17 @@ QStringList networkChanges(const NetworkSettings& before, const NetworkSettings&
   for (const TrainOption& option : trainOptionTable())
     steps.add(QString::fromStdString(option.label), optionWords(option, before), optionWords(option, after), asIs);
   steps.add(QObject::tr("spread"), spreadWords(before), spreadWords(after), asIs);
-  steps.add(QObject::tr("noise of the test"), before.testNoise, after.testNoise, percentOf);
+  steps.add(QObject::tr("test noise"), before.testNoise, after.testNoise, percentOf);
   steps.add(QObject::tr("sweep"), sweepWords(before), sweepWords(after), asIs);
   return steps.all();
 }
 
 QStringList sampleChanges(const SampleSettings& before, const SampleSettings& after) {
   Steps steps;
-  steps.add(QObject::tr("samples an area"), before.perArea, after.perArea,
+  steps.add(QObject::tr("samples per area"), before.perArea, after.perArea,
             [](int its) { return QString::number(its); });
   steps.add(QObject::tr("seed of the samples"), before.seed, after.seed, whole);
-  steps.add(QObject::tr("samples by a surrogate:"), before.surrogate, after.surrogate, onOff);
+  steps.add(QObject::tr("samples with a surrogate model:"), before.surrogate, after.surrogate, onOff);
   if (before.touches && after.touches) {
     TouchSampling rest = *before.touches;
     rest.count = after.touches->count;

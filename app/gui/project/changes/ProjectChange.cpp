@@ -79,11 +79,11 @@ QString discChange(const std::vector<PatchLoad>& before, const std::vector<Patch
       std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
   const QString name = QObject::tr("disc %1:").arg(same);
   if (after.size() == before.size() + 1 && same == before.size())
-    return QObject::tr("%1 a load of %2 N at %3 mm")
+    return QObject::tr("%1 load of %2 N at %3 mm")
         .arg(name, forceWords(after[same].force_N), pairWords(after[same].centre_mm));
   if (after.size() + 1 == before.size() && std::equal(after.begin() + static_cast<std::ptrdiff_t>(same), after.end(),
                                                       before.begin() + static_cast<std::ptrdiff_t>(same) + 1))
-    return QObject::tr("%1 taken away").arg(name);
+    return QObject::tr("%1 removed").arg(name);
   if (after.size() != before.size()) return {};
   PatchLoad only = before[same];
   for (std::size_t k = same + 1; k < after.size(); ++k)
@@ -120,13 +120,13 @@ QString indenterChange(const std::vector<Indenter>& before, const std::vector<In
   const QString name = QObject::tr("indenter %1:").arg(same);
   if (after.size() == before.size() + 1 && same == before.size())
     return QString("%1 %2").arg(name, indenterWords(after[same]));
-  if (after.size() + 1 == before.size()) return QObject::tr("%1 taken away").arg(name);
+  if (after.size() + 1 == before.size()) return QObject::tr("%1 removed").arg(name);
   if (after.size() != before.size()) return {};
   const Indenter &from = before[same], &to = after[same];
   Indenter moved = from;
   moved.place_mm = to.place_mm;
   if (moved == to)
-    return stepWords(name + QObject::tr(" place"), pairWords(from.place_mm), pairWords(to.place_mm), "mm");
+    return stepWords(name + QObject::tr(" position"), pairWords(from.place_mm), pairWords(to.place_mm), "mm");
   Indenter rubbed = from;
   rubbed.friction = to.friction;
   if (rubbed == to)
@@ -149,7 +149,7 @@ QStringList loadChanges(const LoadCase& before, const LoadCase& after) {
     if (from && to)
       changes << stepWords(name, forceWords(*from), forceWords(*to), "N");
     else if (to)
-      changes << QObject::tr("%1 a load of %2 N").arg(name, forceWords(*to));
+      changes << QObject::tr("%1 load of %2 N").arg(name, forceWords(*to));
     else
       changes << QObject::tr("%1 no load").arg(name);
   }

@@ -64,29 +64,36 @@ IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
   shape_ = new QComboBox;
   shape_->setObjectName("indenterShape");
   shape_->setAccessibleName(tr("Shape of the indenter"));
-  shape_->setToolTip(tr("Rigid; pin and punch stand upright, cylinders lie across the whole block"));
+  shape_->setToolTip(tr("Shape of the rigid indenter. Pin and punch are upright; cylinders extend across the complete "
+                        "block. The sensor's own top face is always flat."));
   shape_->setIconSize({kPictureWidth_px, kPictureHeight_px});
   for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
   drawShapes();
   form->addRow(tr("Shape"), shape_);
-  radius_ = addNumber(*form, "indenterRadius", tr("Radius"), tr(" mm"), tr("In the picture: drag its rim"));
-  rim_ = addNumber(*form, "indenterRim", tr("Rim"), tr(" mm"),
-                   tr("Radius of the punch's rounded rim; what is sharper than the mesh is not resolved"));
-  x_ = addNumber(*form, "indenterX", tr("Place x"), tr(" mm"), tr("Of its lowest point; in the picture: drag it"));
-  y_ = addNumber(*form, "indenterY", tr("Place y"), tr(" mm"), tr("Of its lowest point; in the picture: drag it"));
+  radius_ = addNumber(*form, "indenterRadius", tr("Radius"), tr(" mm"),
+                      tr("Radius of the indenter; it can also be dragged at its rim in the view"));
+  rim_ = addNumber(*form, "indenterRim", tr("Edge radius"), tr(" mm"),
+                   tr("Radius of the punch's rounded edge; an edge sharper than the mesh is not resolved"));
+  x_ = addNumber(*form, "indenterX", tr("Position x"), tr(" mm"),
+                 tr("Position of the indenter's lowest point; it can also be dragged in the view"));
+  y_ = addNumber(*form, "indenterY", tr("Position y"), tr(" mm"),
+                 tr("Position of the indenter's lowest point; it can also be dragged in the view"));
   friction_ = addNumber(*form, "indenterFriction", tr("Friction"), {},
-                        tr("Coulomb's coefficient, 0 to 2; a force sideways needs it. A solve with friction takes "
-                           "several times as long"));
+                        tr("Coulomb's coefficient of friction, 0 to 2; a tangential force needs it. A solve with "
+                           "friction takes several times as long."));
   control_ = new QComboBox;
   control_->setObjectName("indenterControl");
-  control_->setAccessibleName(tr("How the indenter presses"));
-  control_->addItems({tr("by a force"), tr("by a way")});
-  control_->setToolTip(tr("A force along x, y and z, or a depth from the first touch and a shift sideways after it"));
-  form->addRow(tr("Presses"), control_);
-  depth_ =
-      addNumber(*form, "indenterDepth", tr("Depth"), tr(" mm"), tr("From the first touch of the top face at rest"));
-  shiftX_ = addNumber(*form, "indenterShiftX", tr("Shift x"), tr(" mm"), tr("Sideways, after it was pressed in"));
-  shiftY_ = addNumber(*form, "indenterShiftY", tr("Shift y"), tr(" mm"), tr("Sideways, after it was pressed in"));
+  control_->setAccessibleName(tr("Control of the indenter"));
+  control_->addItems({tr("Force"), tr("Displacement")});
+  control_->setToolTip(tr("Force control prescribes a force along x, y and z. Displacement control prescribes a depth "
+                          "from the first contact and a tangential shift after it."));
+  form->addRow(tr("Control"), control_);
+  depth_ = addNumber(*form, "indenterDepth", tr("Depth"), tr(" mm"),
+                     tr("Depth from the first contact with the top face at rest"));
+  shiftX_ = addNumber(*form, "indenterShiftX", tr("Shift x"), tr(" mm"),
+                      tr("Tangential shift after the indenter was pressed in"));
+  shiftY_ = addNumber(*form, "indenterShiftY", tr("Shift y"), tr(" mm"),
+                      tr("Tangential shift after the indenter was pressed in"));
   for (QComboBox* box : {shape_, control_}) connect(box, &QComboBox::activated, this, &IndenterPanel::read);
 }
 

@@ -35,7 +35,7 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   plan_ = new AreaPlan;
-  plan_->setToolTip(tr("Load areas and discs seen from above: a click chooses, Shift-click takes the load away"));
+  plan_->setToolTip(tr("Load areas and discs seen from above; click to select, Shift-click to remove the load"));
   column->addWidget(plan_);
   connect(plan_, &AreaPlan::chosen, this, &LoadPanel::choose);
   connect(plan_, &AreaPlan::takenAway, this, &LoadPanel::takeAway);
@@ -63,7 +63,7 @@ void LoadPanel::buildChoice() {
   list_ = new QComboBox;
   list_->setObjectName("loads");
   list_->setAccessibleName(tr("Loads"));
-  list_->setToolTip(tr("All loads of this touch; they act together"));
+  list_->setToolTip(tr("All loads of this touch, which act together"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list_->setMinimumContentsLength(12);
   column->addWidget(list_);
@@ -73,14 +73,14 @@ void LoadPanel::buildChoice() {
   auto* row = new QHBoxLayout;
   auto* add = new QPushButton(tr("Disc"));
   add->setObjectName("addDisc");
-  add->setToolTip(tr("A round load anywhere on the top face; in the picture: the tool Disc, key D"));
-  clear_ = new QPushButton(tr("Take away"));
+  add->setToolTip(tr("Adds a round load anywhere on the top face; in the view, use the tool Press a disc (key D)"));
+  clear_ = new QPushButton(tr("Remove"));
   clear_->setObjectName("clearLoad");
-  clear_->setToolTip(tr("Takes the chosen load away"));
+  clear_->setToolTip(tr("Removes the selected load"));
   auto* press = new QPushButton(tr("Indenter"));
   press->setObjectName("addIndenter");
-  press->setToolTip(tr("A rigid body that presses anywhere on the top face, with or without friction; in the picture: "
-                       "the tool Indenter, key I"));
+  press->setToolTip(tr("Adds a rigid body that presses anywhere on the top face, with or without friction; in the "
+                       "view, use the tool Indenter (key I)"));
   row->addWidget(add);
   row->addWidget(press);
   row->addWidget(clear_);
@@ -109,7 +109,7 @@ void LoadPanel::buildForces() {
     spins_[k]->setKeyboardTracking(false);
     spins_[k]->setAccessibleName(tr("Force along %1").arg(kDirections[k]));
     spins_[k]->setToolTip(
-        tr("Force along %1 of the chosen load [N]; the slider spans the design's force range").arg(kDirections[k]));
+        tr("Force along %1 of the selected load [N]; the slider covers the design's force range").arg(kDirections[k]));
     sliders_[k] = new QSlider(Qt::Horizontal);
     sliders_[k]->setObjectName(QString("slider_%1").arg(kDirections[k]));
     sliders_[k]->setAccessibleName(spins_[k]->accessibleName());
@@ -132,7 +132,7 @@ void LoadPanel::buildDisc() {
   disc_ = new QWidget;
   auto* grid = new QGridLayout(disc_);
   grid->setContentsMargins(0, 0, 0, 0);
-  const std::array<QString, 3> labels{tr("centre x"), tr("centre y"), tr("radius")};
+  const std::array<QString, 3> labels{tr("Centre x"), tr("Centre y"), tr("Radius")};
   constexpr std::array<const char*, 3> kNames{"discX", "discY", "discRadius"};
   for (int k = 0; k < 3; ++k) {
     auto* spin = new NumberBox;
@@ -143,7 +143,7 @@ void LoadPanel::buildDisc() {
     spin->setSingleStep(0.5);
     spin->setSuffix(tr(" mm"));
     spin->setKeyboardTracking(false);
-    spin->setToolTip(tr("The disc stays on the top face: at its edge the centre gives way"));
+    spin->setToolTip(tr("Position and size of the disc; it is kept inside the top face"));
     grid->addWidget(new QLabel(labels[static_cast<std::size_t>(k)]), k, 0);
     grid->addWidget(spin, k, 1);
     connect(spin, &QDoubleSpinBox::valueChanged, this, &LoadPanel::readDisc);
@@ -277,7 +277,7 @@ void LoadPanel::chooseWhatIsThere() {
 
 void LoadPanel::takeAway(const LoadPlace& place) {
   if (!bears(place)) return;
-  const QString what = tr("Take the load of %1 away").arg(name(place));
+  const QString what = tr("Remove the load of %1").arg(name(place));
   switch (place.kind) {
   case LoadKind::Area:
     std::erase_if(load_.areas, [&](const AreaLoad& load) { return load.area == place.number; });

@@ -58,7 +58,8 @@ PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   table_ = new QTableWidget;
   table_->setObjectName("pathSteps");
   table_->setAccessibleName(tr("Steps of the path"));
-  table_->setToolTip(tr("A double click changes a number; on the right is what was found at the end of each step"));
+  table_->setToolTip(tr(
+      "Double click a number to change it; the columns at the right show the computed values at the end of each step"));
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + kAroundLine_px);
@@ -72,13 +73,13 @@ PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), w
     row->addWidget(made);
     return made;
   };
-  add_ =
-      button(tr("Add a step"), "addStep", tr("After the last one, a millimetre further along x"), &PathPanel::addStep);
-  take_ =
-      button(tr("Take away"), "takeStep", tr("Takes the marked steps away, else the last one"), &PathPanel::takeAway);
-  clear_ = button(tr("Clear the path"), "clearPath", tr("The load alone, as before"), &PathPanel::clear);
-  save_ =
-      button(tr("Save as a load file..."), "savePath", tr("Load and steps for palp solve --loads"), &PathPanel::save);
+  add_ = button(tr("Add a step"), "addStep", tr("Adds a step after the last one, 1 mm further along x"),
+                &PathPanel::addStep);
+  take_ = button(tr("Remove"), "takeStep", tr("Removes the selected steps, or the last step if none is selected"),
+                 &PathPanel::takeAway);
+  clear_ = button(tr("Clear the path"), "clearPath", tr("Removes all steps; the load remains"), &PathPanel::clear);
+  save_ = button(tr("Save as a load file..."), "savePath", tr("Saves load and steps as a file for palp solve --loads"),
+                 &PathPanel::save);
   row->addStretch(1);
   column->addLayout(row);
   connect(table_, &QTableWidget::cellChanged, this, &PathPanel::readCell);
@@ -119,12 +120,11 @@ void PathPanel::draw(int indenter, const Eigen::Matrix2Xd& way_mm) {
     const IndenterState* pressed = stateAtEnd(workbench_.touch().touch().solution(), 0, indenter);
     const double depth = pressed != nullptr ? -pressed->translation_mm.z() : kUnknownDepth_mm;
     its.control = Motion{std::max(0.001, std::round(1000 * depth) / 1000)};
-    words =
-        tr(" It is moved from now on, at the depth to which its force pressed it: %1 mm.").arg(its.motion()->depth_mm);
+    words = tr(" It is now displacement-controlled at the depth reached: %1 mm.").arg(its.motion()->depth_mm);
   }
   IndenterPath path{indenter, stepsAlong(way_mm, *its.motion(), kDrawnSteps)};
   if (path.steps.empty()) {
-    emit message(tr("Too short for a path: a quarter of a millimetre at least."));
+    emit message(tr("Too short for a path: at least 0.25 mm is needed."));
     return;
   }
   emit message(tr("Indenter %1 slides along a path of %2 steps.").arg(indenter).arg(path.steps.size()) + words);
@@ -153,7 +153,7 @@ void PathPanel::takeAway() {
   std::sort(rows.rbegin(), rows.rend());
   for (const int row : rows)
     if (row > 0 && row <= static_cast<int>(path.steps.size())) path.steps.erase(path.steps.begin() + row - 1);
-  edit(tr("Take steps of the path away"), path);
+  edit(tr("Remove steps of the path"), path);
 }
 
 void PathPanel::clear() {
@@ -166,7 +166,7 @@ void PathPanel::save() {
   if (file.isEmpty() || !project.path) return;
   try {
     writeFile(file.toStdString(), loadFile(project.load, *project.path, project.design), true);
-    emit message(tr("Wrote %1; palp solve sensor.json --loads %1 follows it.").arg(file));
+    emit message(tr("Wrote %1; use it with palp solve sensor.json --loads %1.").arg(file));
   } catch (const Error& error) {
     emit message(QString::fromStdString(error.what()));
   }
@@ -188,8 +188,9 @@ void PathPanel::readCell(int row, int column) {
   if (!typed || wrong) {
     const QString typedText = table_->item(row, column)->text();
     display(); // what holds
-    words_->setText(typed ? tr("Not applied: %1").arg(QString::fromStdString(*wrong))
-                          : tr("Not applied: \"%1\" is no number; write it with a point, as 0.5").arg(typedText));
+    words_->setText(
+        typed ? tr("Not applied: %1").arg(QString::fromStdString(*wrong))
+              : tr("Not applied: \"%1\" is not a number; use a decimal point, for example 0.5").arg(typedText));
     return;
   }
   edit(tr("Change step %1 of the path").arg(row), path);
@@ -203,17 +204,18 @@ void PathPanel::display() {
   const bool pressed = its != nullptr && its->press() != nullptr;
   const int steps = project.path ? static_cast<int>(project.path->steps.size()) : 0;
   words_->setText(
-      its == nullptr ? tr("An indenter can slide along a path: press with one first (tool Indenter, key I).")
+      its == nullptr ? tr("An indenter can slide along a path: press with an indenter first (tool Indenter, key I).")
       : steps == 0   ? tr("No path yet: with the tool Indenter, hold Ctrl and drag from the indenter over the "
                             "face, or add steps here.")
-                     : tr("Indenter %1 after its load (step 0). Play it above; colour by contact pressure, "
-                            "shear, or shear / pressure: what slips is at the coefficient of friction, %2.")
+                     : tr("Path of indenter %1 after its load (step 0). Play it above; colour the block by contact "
+                            "pressure, shear, or shear / pressure: slipping contact has the coefficient of friction, %2.")
                          .arg(indenterNumber())
                          .arg(its->friction));
   QStringList heads{tr("step")};
   heads << (pressed ? QStringList{tr("Fx [N]"), tr("Fy [N]"), tr("Fz [N]")}
                     : QStringList{tr("depth [mm]"), tr("shift x [mm]"), tr("shift y [mm]")});
-  heads << tr("found Fx [N]") << tr("Fy [N]") << tr("Fz [N]") << tr("contact radius [mm]") << tr("slips [%]");
+  heads << tr("computed Fx [N]") << tr("Fy [N]") << tr("Fz [N]") << tr("contact radius [mm]")
+        << tr("slipping area [%]");
   table_->setColumnCount(static_cast<int>(heads.size()));
   table_->setHorizontalHeaderLabels(heads);
   table_->setRowCount(its == nullptr ? 0 : 1 + steps);

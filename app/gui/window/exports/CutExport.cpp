@@ -16,7 +16,7 @@ QString cutProblem(Workbench& workbench, const DeformationPage& page) {
   if (!page.blockOptions().cut)
     return QObject::tr("There is no cut: choose one across x, y or z in the panel of the Deformation scene.");
   if (page.blockOptions().lessKept && !page.shownLess())
-    return QObject::tr("The difference to the kept design is not there yet; wait until it is computed.");
+    return QObject::tr("The difference from the reference design is not available yet; wait until it is computed.");
   return {};
 }
 

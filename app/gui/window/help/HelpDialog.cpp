@@ -1,8 +1,8 @@
 #include "app/gui/window/help/HelpDialog.h"
 
 #include "app/gui/window/help/HelpLook.h"
+#include "app/gui/window/help/HelpPages.h"
 #include "app/gui/window/help/HelpTopics.h"
-#include "app/study/Resources.h"
 #include "model/base/Error.h"
 
 #include <QDesktopServices>
@@ -33,27 +33,6 @@ constexpr qsizetype kFewLetters = 3; // fewer are a word that is being typed: no
 constexpr qsizetype kMostTinted = 200;
 constexpr int kShownText = 300; // letters of a topic that was found, in its tool tip
 
-/// The first heading of a Markdown page.
-QString titleOf(const QString& file) {
-  QFile page(file);
-  if (!page.open(QIODevice::ReadOnly)) return QFileInfo(file).completeBaseName();
-  while (!page.atEnd()) {
-    const QString line = QString::fromUtf8(page.readLine()).trimmed();
-    if (line.startsWith("# ")) return line.mid(2);
-  }
-  return QFileInfo(file).completeBaseName();
-}
-
-/// What the help shows, by their titles: the help itself, then the pages in the order of their files' names.
-QList<QPair<QString, QString>> helpPages() {
-  const QString help = QString::fromStdString(resource("help/help.html").string());
-  QList<QPair<QString, QString>> pages{{QObject::tr("The window"), QFileInfo(help).absoluteFilePath()}};
-  const QDir docs(QFileInfo(help).dir().filePath("../docs"));
-  for (const QFileInfo& page : docs.entryInfoList({"*.md"}, QDir::Files, QDir::Name))
-    pages.append({titleOf(page.filePath()), page.absoluteFilePath()});
-  return pages;
-}
-
 class HelpDialog : public QDialog {
 public:
   explicit HelpDialog(QWidget* parent) : QDialog(parent) {
@@ -61,6 +40,7 @@ public:
     setWindowTitle(tr("Palp: help"));
     resize(1110, 720);
     list_->setObjectName("helpPages");
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff); // a long title is cut, and whole in its tooltip
     for (const auto& [title, file] : helpPages()) {
       auto* item = new QListWidgetItem(title, list_);
       item->setData(kFileRole, file);
@@ -92,10 +72,12 @@ public:
     list_->setCurrentRow(0);
   }
 
+  /// The page of a scene; the first hour if it has none.
   void showScene(const QString& scene) {
     search_->clear();
+    search_->setFocus();
     list_->setCurrentRow(0);
-    text_->scrollToAnchor(scene);
+    showPage(QFileInfo(list_->item(0)->data(kFileRole).toString()).dir().filePath(scene + ".html"));
   }
 
 protected:
@@ -111,10 +93,10 @@ private:
     search_->setObjectName("helpSearch");
     search_->setPlaceholderText(tr("Search the help"));
     search_->setAccessibleName(search_->placeholderText());
-    search_->setToolTip(tr("Topics that hold all these words, or words that begin with them (Ctrl+F)"));
+    search_->setToolTip(tr("Finds topics that contain all these words or words that begin with them (Ctrl+F)"));
     search_->setClearButtonEnabled(true);
     found_->setObjectName("helpFound");
-    found_->setAccessibleName(tr("Topics that were found"));
+    found_->setAccessibleName(tr("Topics found"));
     found_->hide();
     none_->setObjectName("helpNone");
     none_->setProperty("role", "hint");
@@ -142,7 +124,7 @@ private:
     }
     list_->setVisible(!any);
     found_->setVisible(any);
-    none_->setText(tr("No topic holds \"%1\".").arg(words.trimmed()));
+    none_->setText(tr("Nothing found for \"%1\".").arg(words.trimmed()));
     none_->setVisible(any && topics.isEmpty());
     if (!topics.isEmpty() && words.trimmed().size() >= kFewLetters) return found_->setCurrentRow(0);
     text_->setExtraSelections({});
@@ -154,7 +136,7 @@ private:
     showPage(item->data(kFileRole).toString());
     goTo(anchorOf(item->data(kHeadingRole).toString()));
     QList<QTextEdit::ExtraSelection> tinted;
-    for (const QString& word : search_->text().simplified().split(' ', Qt::SkipEmptyParts))
+    for (const QRegularExpression& word : searchPatterns(search_->text()))
       for (QTextCursor at = text_->document()->find(word); !at.isNull() && tinted.size() < kMostTinted;
            at = text_->document()->find(word, at)) {
         QTextCharFormat format;
@@ -225,12 +207,14 @@ QString anchorOf(const QString& heading) {
 void showHelp(QWidget* parent, const QString& scene) {
   auto* dialog = static_cast<HelpDialog*>(parent->findChild<QDialog*>("help"));
   try {
-    if (dialog == nullptr) dialog = new HelpDialog(parent);
+    if (dialog == nullptr)
+      dialog = new HelpDialog(parent); // at the first hour
+    else
+      dialog->showScene(scene);
   } catch (const Error& error) {
     QMessageBox::warning(parent, QObject::tr("Help"), QString::fromStdString(error.what()));
     return;
   }
-  dialog->showScene(scene);
   dialog->show();
   dialog->raise();
 }

@@ -6,8 +6,8 @@ class QWidget;
 
 namespace palp {
 
-/// Opens the help at a scene's chapter, beside the window: it does not block it. A list at its left has the help and
-/// the pages of resources/docs.
+/// Opens the help without blocking the window: the first time at the first hour, later at the page of the scene. A
+/// list at its left has all pages.
 void showHelp(QWidget* parent, const QString& scene);
 
 /// The anchor that a heading of a Markdown page has in a link: "Error against time" has error-against-time.

@@ -2,6 +2,7 @@
 
 #include <QFile>
 #include <QRegularExpression>
+#include <QStringList>
 #include <QTextDocumentFragment>
 
 #include <algorithm>
@@ -10,9 +11,22 @@ namespace palp {
 
 namespace {
 
+/// Words of a question that are in every topic or in none.
+const QStringList kEmptyWords{"a",   "an",    "and", "any", "are",  "can",   "do",    "does", "for",  "have", "how",
+                              "i",   "in",    "is",  "it",  "me",   "my",    "need",  "of",   "on",   "or",   "should",
+                              "the", "there", "to",  "we",  "what", "where", "which", "why",  "with", "you"};
+
 bool holdsAll(const QString& text, const QList<QRegularExpression>& words) {
   return std::all_of(words.begin(), words.end(),
                      [&](const QRegularExpression& word) { return word.match(text).hasMatch(); });
+}
+
+/// Of all comments "<!-- search: ... -->".
+QString synonymsIn(const QString& html) {
+  static const QRegularExpression comment("<!-- search:(.*?)-->", QRegularExpression::DotMatchesEverythingOption);
+  QStringList all;
+  for (auto matches = comment.globalMatch(html); matches.hasNext();) all << matches.next().captured(1).simplified();
+  return all.join(", ");
 }
 
 QString plainHtml(const QString& html) {
@@ -33,7 +47,7 @@ QList<HelpTopic> markdownTopics(const HelpTopic& first, const QString& content) 
     static const QRegularExpression heading("^#+ +(.*)$");
     const auto match = heading.match(line);
     if (!code && match.hasMatch())
-      topics.append({first.page, first.file, plainMarkdown(match.captured(1)), {}});
+      topics.append({first.page, first.file, plainMarkdown(match.captured(1)), {}, {}});
     else
       topics.back().text += plainMarkdown(line) + ' ';
   }
@@ -45,13 +59,17 @@ QList<HelpTopic> htmlTopics(const HelpTopic& first, const QString& content) {
   static const QRegularExpression heading("<h[1-6][^>]*>(.*?)</h[1-6]>",
                                           QRegularExpression::DotMatchesEverythingOption);
   qsizetype from = std::max<qsizetype>(0, content.indexOf("<body"));
+  const auto fill = [&topics](const QString& html) {
+    topics.back().text = plainHtml(html);
+    topics.back().others = synonymsIn(html);
+  };
   for (auto matches = heading.globalMatch(content, from); matches.hasNext();) {
     const QRegularExpressionMatch match = matches.next();
-    topics.back().text = plainHtml(content.mid(from, match.capturedStart() - from));
-    topics.append({first.page, first.file, plainHtml(match.captured(1)), {}});
+    fill(content.mid(from, match.capturedStart() - from));
+    topics.append({first.page, first.file, plainHtml(match.captured(1)), {}, {}});
     from = match.capturedEnd();
   }
-  topics.back().text = plainHtml(content.mid(from));
+  fill(content.mid(from));
   return topics;
 }
 
@@ -61,26 +79,39 @@ QList<HelpTopic> topicsOf(const QString& page, const QString& file) {
   QFile source(file);
   if (!source.open(QIODevice::ReadOnly)) return {};
   const QString content = QString::fromUtf8(source.readAll());
-  const HelpTopic first{page, file, page, {}};
+  const HelpTopic first{page, file, page, {}, {}};
   QList<HelpTopic> topics = file.endsWith(".md") ? markdownTopics(first, content) : htmlTopics(first, content);
   for (HelpTopic& topic : topics) topic.text = topic.text.simplified();
   topics.removeIf([](const HelpTopic& topic) { return topic.text.isEmpty(); });
   return topics;
 }
 
-QList<HelpTopic> topicsWith(const QList<HelpTopic>& topics, const QString& words) {
-  QList<QRegularExpression> all;
-  for (const QString& word : words.simplified().split(' ', Qt::SkipEmptyParts))
-    all.append(
+QList<QRegularExpression> searchPatterns(const QString& words) {
+  const QStringList typed = words.toLower().simplified().split(' ', Qt::SkipEmptyParts);
+  QStringList telling = typed;
+  telling.removeIf([](const QString& word) { return kEmptyWords.contains(word); });
+  QList<QRegularExpression> patterns;
+  for (QString word : telling.isEmpty() ? typed : telling) {
+    if (word.size() > 3 && word.endsWith('s') && !word.endsWith("ss")) word.chop(1);
+    patterns.append(
         QRegularExpression("(?<![\\w])" + QRegularExpression::escape(word),
                            QRegularExpression::CaseInsensitiveOption | QRegularExpression::UseUnicodePropertiesOption));
+  }
+  return patterns;
+}
+
+QList<HelpTopic> topicsWith(const QList<HelpTopic>& topics, const QString& words) {
+  const QList<QRegularExpression> all = searchPatterns(words);
   if (all.isEmpty()) return {};
-  QList<HelpTopic> found;
-  std::copy_if(topics.begin(), topics.end(), std::back_inserter(found),
-               [&](const HelpTopic& topic) { return holdsAll(topic.heading + ' ' + topic.text, all); });
-  std::stable_partition(found.begin(), found.end(),
-                        [&](const HelpTopic& topic) { return holdsAll(topic.heading, all); });
-  return found;
+  QList<HelpTopic> named, others;
+  for (const HelpTopic& topic : topics) {
+    const QString name = topic.heading + ' ' + topic.others;
+    if (holdsAll(name, all))
+      named << topic;
+    else if (holdsAll(name + ' ' + topic.text, all))
+      others << topic;
+  }
+  return named + others;
 }
 
 } // namespace palp

@@ -43,7 +43,7 @@ UndoActions::UndoActions(Workbench& workbench, QObject* parent) : QObject(parent
   };
   connect(&history, &QUndoStack::undoTextChanged, undo_, nameUndo);
   nameUndo({});
-  redo_ = history.createRedoAction(this, tr("Redo:"));
+  redo_ = history.createRedoAction(this, tr("Redo"));
   redo_->setObjectName("redo");
   redo_->setShortcuts({QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")});
   qApp->installEventFilter(this);

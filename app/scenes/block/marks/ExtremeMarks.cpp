@@ -26,7 +26,7 @@ std::vector<PlacedText> extremeMarks(const std::vector<double>& values, const Ei
   if (values[static_cast<std::size_t>(low)] == values[static_cast<std::size_t>(high)]) return {}; // as at rest: nowhere
   std::vector<PlacedText> marks;
   const std::string unit = quantityUnit(options.quantity);
-  const std::string of = options.cut ? "of what the cut leaves " : "";
+  const std::string of = options.cut ? "shown " : "";
   for (const auto& [node, name] : {std::pair{high, "largest "}, std::pair{low, "smallest "}})
     marks.push_back({drawn_mm.col(node),
                      name + of + valueText(values[static_cast<std::size_t>(node)]) + (unit.empty() ? "" : " " + unit),

@@ -68,7 +68,7 @@ TEST_F(DesignStudies, ASearchThatIsStoppedSaysSoAndChangesNothing) {
   ASSERT_TRUE(window.busy());
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(done());
-  EXPECT_TRUE(find<QLabel>("layoutWords").text().contains("Stopped"));
+  EXPECT_TRUE(find<QLabel>("layoutWords").text().contains("Cancelled"));
   EXPECT_FALSE(find<QPushButton>("takeLayout").isEnabled());
   EXPECT_TRUE(find<QPushButton>("findLayout").isEnabled());
 }
@@ -191,7 +191,7 @@ TEST_F(DesignStudies, CompareADesignAtOnceWithTheOneBeforeTheLastChange) {
   auto& with = find<QComboBox>("compareWith");
   ASSERT_EQ(with.count(), 2);
   EXPECT_EQ(with.currentIndex(), 0);
-  EXPECT_TRUE(with.currentText().contains("before: rubber")) << with.currentText().toStdString();
+  EXPECT_TRUE(with.currentText().contains("before change: rubber")) << with.currentText().toStdString();
   EXPECT_TRUE(with.currentText().contains("-> 0.48")) << with.currentText().toStdString();
   const int entries = workbench.history().count();
   QTest::mouseClick(&find<QPushButton>("compareDesigns"), Qt::LeftButton);
@@ -238,7 +238,7 @@ TEST_F(DesignStudies, AComparisonThatIsStoppedSaysSoAndKeepsTheOneBefore) {
       << "how far it is";
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(done());
-  EXPECT_TRUE(find<QLabel>("comparison").text().contains("Stopped"));
+  EXPECT_TRUE(find<QLabel>("comparison").text().contains("Cancelled"));
   EXPECT_FALSE(workbench.project().studies.compared);
   EXPECT_TRUE(compare.isEnabled());
 }

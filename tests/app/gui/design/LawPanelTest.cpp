@@ -87,13 +87,13 @@ TEST_F(LawPanelTest, EveryNumberOfTheFieldIsCheckedAtItself) {
       {"resistance.resistivity_ohm_mm", "0", "expected 1e-06 to", "2000 ohm mm"},
       {"resistance.electrode_radius_mm", "0.6", "electrodes overlap", "0.2 mm"},
       {"resistance.contact_ohm_mm2", "-1", "expected 0 up to", "0 ohm mm2"},
-      {"resistance.wire_ohm", "ohm", "no number", "0 ohm"}};
+      {"resistance.wire_ohm", "ohm", "not a number", "0 ohm"}};
   for (const auto& [key, wrong, sentence, inUse] : slips) {
     const QString before = find<QLineEdit>(key).text();
     type(key, wrong);
     EXPECT_EQ(*field(), FieldLaw{}) << key;
     EXPECT_TRUE(problemAt(key).contains(sentence)) << problemAt(key).toStdString();
-    EXPECT_TRUE(problemAt(key).contains(QString("In use is still ") + inUse)) << problemAt(key).toStdString();
+    EXPECT_TRUE(problemAt(key).contains(QString("The design still has ") + inUse)) << problemAt(key).toStdString();
     EXPECT_TRUE(find<QLineEdit>(key).property("wrong").toBool()) << key;
     type(key, before);
     EXPECT_EQ(problemAt(key), QString()) << key;
@@ -117,7 +117,7 @@ TEST_F(LawPanelTest, ARadiusThatIsLargeForItsGapIsWarnedOfWithItsErrorAndTaken) 
 TEST_F(LawPanelTest, AReadoutIsSaidAsTheCircuitThatReads) {
   chooseField();
   const QString floating = find<QLabel>("readoutWords").text();
-  EXPECT_TRUE(floating.contains("left open")) << floating.toStdString();
+  EXPECT_TRUE(floating.contains("wires float")) << floating.toStdString();
   choose("resistance.readout", Qt::Key_Down);
   EXPECT_EQ(field()->readout, Readout::VirtualGround);
   EXPECT_TRUE(find<QLabel>("readoutWords").text().contains("0 V"));
@@ -135,8 +135,8 @@ TEST_F(LawPanelTest, ALawThatTheDesignCannotHaveSaysWhereAndComesWithTheNumberTh
   EXPECT_EQ(field(), nullptr);
   const QString problem = problemAt("resistance.electrode_radius_mm");
   EXPECT_TRUE(problem.contains("electrodes overlap")) << problem.toStdString();
-  EXPECT_TRUE(problem.contains("In use is still Eq. (1)")) << problem.toStdString();
-  EXPECT_TRUE(problemAt("resistance.law").contains("in use is Eq. (1)")) << problemAt("resistance.law").toStdString();
+  EXPECT_TRUE(problem.contains("The design still has Eq. (1)")) << problem.toStdString();
+  EXPECT_TRUE(problemAt("resistance.law").contains("The design still has Eq. (1)")) << problemAt("resistance.law").toStdString();
   QTest::keyClick(&find<QComboBox>("resistance.law"), Qt::Key_Z, Qt::ControlModifier);
   settle();
   EXPECT_EQ(find<QComboBox>("resistance.law").currentIndex(), 0) << "what was not applied goes first";
@@ -156,7 +156,7 @@ TEST_F(LawPanelTest, ThePressureLawHoldsUnderEitherLawAndItsNumbersAreChecked) {
   type("p0", "soft");
   bool said = false;
   for (const QLabel* label : window.currentScene().findChildren<QLabel*>())
-    said = said || (label->isVisible() && label->text().contains("\"soft\" is no number"));
+    said = said || (label->isVisible() && label->text().contains("\"soft\" is not a number"));
   EXPECT_TRUE(said);
   EXPECT_EQ(workbench.project().design.pressureLaw, PressureLaw{});
   type("p0", "0.1");
@@ -177,7 +177,7 @@ TEST_F(LawPanelTest, TheNoiseFloorOfTheFieldStandsForEveryReadoutBesideEq1AndNee
                             .replace(' ', "&nbsp;"); // in one line
     EXPECT_TRUE(floorWords().contains(all)) << name << " " << all.toStdString() << floorWords().toStdString();
   }
-  EXPECT_TRUE(floorWords().contains("Eq.&nbsp;(1)&nbsp;would&nbsp;say"));
+  EXPECT_TRUE(floorWords().contains("Eq.&nbsp;(1)&nbsp;for&nbsp;comparison"));
   EXPECT_TRUE(floorWords().contains("<b>floating</b>"));
   choose("resistance.readout", Qt::Key_Down);
   EXPECT_FALSE(window.busy()) << "all read-outs were bounded at once";
@@ -190,7 +190,7 @@ TEST_F(LawPanelTest, TheNoiseFloorOfTheFieldStandsForEveryReadoutBesideEq1AndNee
   workbench.history().undo(); // the read-out
   workbench.history().undo(); // the law
   ASSERT_EQ(workbench.project().design, paperDesign());
-  EXPECT_TRUE(floorWords().contains("Known once there are samples")) << floorWords().toStdString();
+  EXPECT_TRUE(floorWords().contains("Available once there are samples")) << floorWords().toStdString();
 }
 
 TEST_F(LawPanelTest, ABoundOfTheFieldThatIsStoppedSaysSoAndTheNextEditComputesIt) {
@@ -198,7 +198,7 @@ TEST_F(LawPanelTest, ABoundOfTheFieldThatIsStoppedSaysSoAndTheNextEditComputesIt
   ASSERT_TRUE(window.busy());
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(idle());
-  EXPECT_TRUE(floorWords().contains("Stopped")) << floorWords().toStdString();
+  EXPECT_TRUE(floorWords().contains("Cancelled")) << floorWords().toStdString();
   type("resistance.wire_ohm", "5");
   EXPECT_TRUE(bounded()) << floorWords().toStdString();
 }
@@ -224,7 +224,7 @@ TEST_F(LawPanelTest, ABoundOfTheFieldThatEndsAfterTheLawWentBackToEq1IsNotShown)
   ASSERT_TRUE(idle());
   window.showScene("design");
   settle();
-  EXPECT_TRUE(floorWords().contains("Known once there are samples")) << floorWords().toStdString();
+  EXPECT_TRUE(floorWords().contains("Available once there are samples")) << floorWords().toStdString();
   chooseField();
   EXPECT_TRUE(bounded()) << floorWords().toStdString();
 }

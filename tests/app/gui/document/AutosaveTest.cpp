@@ -189,7 +189,7 @@ TEST_F(AutosaveTest, AFullDiskIsSaidAndWhatWasKeptStaysUntilThereIsRoom) {
     press(-3.5);
     ASSERT_TRUE(QTest::qWaitFor([&] { return !said.isEmpty(); }, kPatience_ms));
   }
-  EXPECT_TRUE(said.startsWith("Unsaved work cannot be kept")) << said.toStdString();
+  EXPECT_TRUE(said.startsWith("Unsaved work cannot be stored")) << said.toStdString();
   EXPECT_FALSE(said.contains('\n'));
   EXPECT_EQ(keptForce_N(), -2.5);
   press(-4.5);

@@ -208,7 +208,7 @@ TEST_F(OpenFiles, AProjectComesBackWithItsSamplesAndItsNetwork) {
   answerFileDialog(inFolder("p.json"));
   ASSERT_TRUE(window.document().save());
   EXPECT_EQ(window.statusBar()->currentMessage(),
-            "Saved " + inFolder("p.json") + "; its samples and networks are in the folder p.palp beside it.");
+            "Saved " + inFolder("p.json") + "; its samples and networks are in the folder p.palp next to it.");
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience_ms));
   const Eigen::MatrixXd predicted = network.fit()->prediction.forces_N;
 
@@ -310,9 +310,9 @@ TEST_F(OpenFiles, SamplesThatTookLongAreAskedAboutHoweverOthersComeAndNotForWhat
     return said;
   };
   for (const bool dropped : {false, true})
-    EXPECT_TRUE(asked(other, dropped).contains("stand in no file of their own")) << dropped << said.toStdString();
+    EXPECT_TRUE(asked(other, dropped).contains("have not been saved")) << dropped << said.toStdString();
   EXPECT_EQ(asked(foreign, false), QString()) << "nothing would come in their place";
-  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("holds no samples"))
+  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("not a Palp sample file"))
       << find<QLabel>("trainingProblem").text().toStdString();
   EXPECT_EQ(network.sharedSamples(), before) << "the question was closed, which means no";
 
@@ -352,7 +352,7 @@ TEST_F(OpenFiles, RefusesABrokenFileWithASentenceAndGoesOnWithWhatItHad) {
   text.close();
   dropOn(window, file);
   EXPECT_TRUE(said.contains("not valid JSON: the file ends early, at line ")) << said.toStdString();
-  EXPECT_TRUE(said.contains("stays as it is")) << said.toStdString();
+  EXPECT_TRUE(said.contains("is unchanged")) << said.toStdString();
   EXPECT_EQ(workbench.project(), before);
   EXPECT_TRUE(workbench.touch().upToDate());
 }

@@ -206,7 +206,7 @@ TEST_F(ResultFilesTest, ASweepOfOtherSamplesIsNotShownWithThese) {
   writeFile(folder() / "sweeps.json", swept, true);
   const OpenedResults found = opened();
   ASSERT_EQ(found.problems.size(), 1U);
-  EXPECT_NE(found.problems[0].find("are of other samples"), std::string::npos) << found.problems[0];
+  EXPECT_NE(found.problems[0].find("belong to other samples"), std::string::npos) << found.problems[0];
   EXPECT_TRUE(found.results.sweep.empty());
   EXPECT_TRUE(found.results.trials.empty());
   NetworkResults without = made_;
@@ -228,10 +228,10 @@ TEST_F(ResultFilesTest, ATableOfSomebodyElseIsNamedByWhatItBeginsWith) {
     }
     return {};
   };
-  EXPECT_NE(refusal(table).find("sweep.csv: holds no samples but a table that begins with \"spread,Fx RMSE"),
+  EXPECT_NE(refusal(table).find("sweep.csv: not a Palp sample file (it starts with \"spread,Fx RMSE"),
             std::string::npos)
       << refusal(table);
-  EXPECT_NE(refusal(empty).find("is no file of Palp's (empty)"), std::string::npos) << refusal(empty);
+  EXPECT_NE(refusal(empty).find("is not a Palp file (empty)"), std::string::npos) << refusal(empty);
   EXPECT_NE(refusal(folder() / "network.json").find("is a network, not samples"), std::string::npos)
       << refusal(folder() / "network.json");
 }
@@ -370,7 +370,7 @@ TEST_F(ResultFilesTest, SamplesThatWereHereBeforeBringBackWhatWasMadeOfThem) {
   EXPECT_TRUE(session.fitIsCurrent());
   EXPECT_EQ(session.sweepPoints().size(), 3u);
   EXPECT_EQ(session.kept().size(), 2u) << "the list has both";
-  EXPECT_TRUE(said.contains("were here before")) << said.toStdString();
+  EXPECT_TRUE(said.contains("were loaded earlier")) << said.toStdString();
   EXPECT_TRUE(samplesWords(session).contains("from copy.csv")) << samplesWords(session).toStdString();
 
   const NetworkSamples* shown = session.samples();

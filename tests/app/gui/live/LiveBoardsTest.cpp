@@ -174,7 +174,8 @@ TEST_F(TwoBoards, ABoardIsReadByOneAtATime) {
     const auto lines = list.findItems(serial, Qt::MatchStartsWith);
     return lines.isEmpty() ? nullptr : lines[0];
   };
-  ASSERT_TRUE(wait([&] { return lineOf("PALP-A") != nullptr && lineOf("PALP-A")->text().contains("shown beside"); }));
+  ASSERT_TRUE(
+      wait([&] { return lineOf("PALP-A") != nullptr && lineOf("PALP-A")->text().contains("shown in another view"); }));
   QTest::mouseClick(list.viewport(), Qt::LeftButton, {}, list.visualItemRect(lineOf("PALP-A")).center());
   ASSERT_TRUE(wait([&] { return status(1).state == LiveState::Refused; }));
   EXPECT_TRUE(wait([&] { return find<QLabel>(1, "liveBanner").text().contains("is already open in another view"); }));
@@ -223,7 +224,7 @@ TEST_F(TwoBoards, LabelledFramesAndACalibratedNetworkAreNotLostWithTheirBoardWit
   next.board(1).frames = std::make_shared<const BoardFrames>(frames);
   workbench.edit("frames", next);
   const QString losses = scene.page(1).lossesByClosing().join(' ');
-  EXPECT_TRUE(losses.contains("Labelled frames of this board")) << losses.toStdString();
+  EXPECT_TRUE(losses.contains("labelled frames of this board are not saved")) << losses.toStdString();
   EXPECT_TRUE(scene.page(0).lossesByClosing().isEmpty()) << "they are the other's";
   answerQuestion(QMessageBox::No);
   click(1, "takeBoardAway");

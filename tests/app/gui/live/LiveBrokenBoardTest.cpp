@@ -70,14 +70,14 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
   EXPECT_EQ(workbench.project().network.input, InputKind::Resistance);
   EXPECT_GE(workbench.project().network.noise, 5e-6);
   type<QSpinBox>("openColumn", "7"); // no network does without a column-wire
-  EXPECT_TRUE(wait([&] { return banner().contains("mend the wire"); })) << banner().toStdString();
+  EXPECT_TRUE(wait([&] { return banner().contains("repair the wire"); })) << banner().toStdString();
   EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
 }
 
 TEST_F(LiveBrokenBoard, ABrokenColumnWireWidensTheDeviationAndEndsNoForce) {
   ASSERT_TRUE(waitForFrames());
   type<QSpinBox>("openColumn", "7");
-  ASSERT_TRUE(wait([&] { return banner().startsWith("column-wire 7: open. Forces go on"); })) << banner().toStdString();
+  ASSERT_TRUE(wait([&] { return banner().startsWith("column-wire 7: open. Forces continue"); })) << banner().toStdString();
   const LiveFrame* last = page.host().history().last();
   EXPECT_TRUE(last->forces.valid) << last->forces.reason;
   EXPECT_EQ(last->forces.missingReadings, 10);
@@ -92,7 +92,7 @@ TEST_F(LiveBrokenBoard, AWireThatTheNetworkDoesNotReadIsNoAlarm) {
   ASSERT_TRUE(wait([&] { return banner().startsWith("row-wire 3: open"); }));
   EXPECT_EQ(words.property("role"), "banner");
   page.host().useDecoder(networkWithoutRow(3), "without row-wire 3");
-  ASSERT_TRUE(wait([&] { return banner().contains("does without it"); })) << banner().toStdString();
+  ASSERT_TRUE(wait([&] { return banner().contains("does not need it"); })) << banner().toStdString();
   EXPECT_TRUE(banner().startsWith("row-wire 3: open")) << banner().toStdString();
   EXPECT_EQ(words.property("role"), "note");
   EXPECT_TRUE(find<QPushButton>("otherRows").isHidden());
@@ -122,11 +122,11 @@ TEST_F(LiveBrokenBoard, TheRowWiresThatMayBeScannedAloneAreThoseOfTheBoard) {
   ASSERT_TRUE(waitForFrames());
   auto& rows = find<QComboBox>("rows");
   ASSERT_TRUE(wait([&] { return rows.count() == 11; })) << rows.count();
-  EXPECT_EQ(rows.itemText(10), "row-wire 9 alone");
+  EXPECT_EQ(rows.itemText(10), "Row-wire 9 alone");
   rows.setFocus();
   QTest::keyClick(&rows, Qt::Key_End);
   EXPECT_EQ(workbench.project().live.row, 9);
-  EXPECT_EQ(rows.currentText(), "row-wire 9 alone");
+  EXPECT_EQ(rows.currentText(), "Row-wire 9 alone");
 }
 
 } // namespace

@@ -59,7 +59,7 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   EXPECT_TRUE(wait([&] { return name.text().startsWith("calibrated, 9 frames, 2"); })) << name.text().toStdString();
   const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
   click("networkBack");
-  EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
+  EXPECT_TRUE(wait([&] { return name.text().startsWith("Built-in network"); })) << name.text().toStdString();
   EXPECT_NE(page.host().decoder()->residual_N, calibrated_N);
   EXPECT_EQ(page.host().decoder()->trainedWith, before);
   ASSERT_TRUE(wait([&] { return !find<QPushButton>("shippedNetwork").isEnabled(); })) << "it is in use";
@@ -67,7 +67,7 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   ASSERT_TRUE(stopsToRecord());
   ASSERT_TRUE(wait([&] { return marksOf(file).size() == 2; }));
   EXPECT_EQ(marksOf(file)[0].rfind("network: calibrated, 9 frames", 0), 0U) << marksOf(file)[0];
-  EXPECT_EQ(marksOf(file)[1].rfind("network: Palp's own", 0), 0U) << marksOf(file)[1];
+  EXPECT_EQ(marksOf(file)[1].rfind("network: Built-in network", 0), 0U) << marksOf(file)[1];
 }
 
 TEST_F(LiveCalibrating, FramesAndNetworkInUseArePartOfTheProjectAndAnotherProjectHasNeither) {
@@ -82,7 +82,7 @@ TEST_F(LiveCalibrating, FramesAndNetworkInUseArePartOfTheProjectAndAnotherProjec
 
   workbench.replace(exampleProject());
   EXPECT_TRUE(wait([&] { return page.host().calibrated() == nullptr && !page.host().loading(); }));
-  EXPECT_EQ(page.host().networkName(), "Palp's own");
+  EXPECT_EQ(page.host().networkName(), "Built-in network");
   EXPECT_EQ(page.host().networkBefore(), "") << "the network of the project before";
   EXPECT_EQ(calibration().frames().samples().size(), 0);
   EXPECT_FALSE(calibration().calibration().has_value());
@@ -95,7 +95,7 @@ TEST_F(LiveCalibrating, FramesAndNetworkInUseArePartOfTheProjectAndAnotherProjec
   EXPECT_FALSE(workbench.modified());
   ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
   click("shippedNetwork");
-  EXPECT_TRUE(wait([&] { return page.host().networkName() == "Palp's own"; }));
+  EXPECT_TRUE(wait([&] { return page.host().networkName() == "Built-in network"; }));
   EXPECT_EQ(workbench.project().live.calibrated, nullptr);
   EXPECT_TRUE(workbench.modified());
 }
@@ -106,7 +106,7 @@ TEST_F(LiveCalibrating, SaysThatTheLabelsDoNotBelongToTheFrames) {
   auto& table = find<QTableWidget>("labelledFrames");
   EXPECT_FALSE(table.item(0, 2)->text().isEmpty()) << "what the network said stands beside the label";
   ASSERT_TRUE(fit());
-  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("A bad fit"));
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("Poor fit"));
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("the model under these labels"));
   const auto worst = static_cast<int>(calibration().calibration()->report.worstSample);
   EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains(QString("row %1 of the table").arg(worst + 1)))
@@ -119,7 +119,7 @@ TEST_F(LiveCalibrating, AsksBeforeABadFitIsUsedAndItsDeviationsHoldWhatItLeft) {
   ASSERT_TRUE(fit());
   answerQuestion(QMessageBox::No);
   click("useCalibration");
-  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
+  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Built-in network"));
   useFit();
   ASSERT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("calibrated, 12 frames"); }));
   const double left_N = calibration().calibration()->report.rmseAfter_N(2);
@@ -245,7 +245,7 @@ TEST_F(LiveCalibrating, ANetworkThatCannotBeUsedLeavesTheOneInUse) {
   EXPECT_TRUE(find<QLabel>("networkProblem").text().contains("broken.json"));
   EXPECT_EQ(workbench.project().live.network, "");
   EXPECT_TRUE(page.host().decoder().has_value());
-  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Palp's own"));
+  EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Built-in network"));
   ASSERT_TRUE(waitForFrames());
   EXPECT_TRUE(page.host().history().last()->forces.valid);
 }
@@ -258,7 +258,7 @@ TEST_F(LiveCalibrating, TheNetworkOfPalpIsHadBackAfterOneThatWasRefined) {
   ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
   click("shippedNetwork");
   auto& name = find<QLabel>("networkName");
-  EXPECT_TRUE(wait([&] { return name.text().startsWith("Palp's own"); })) << name.text().toStdString();
+  EXPECT_TRUE(wait([&] { return name.text().startsWith("Built-in network"); })) << name.text().toStdString();
   EXPECT_TRUE(page.host().networkBefore().isEmpty());
 }
 
@@ -268,8 +268,9 @@ TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
   ASSERT_TRUE(records(file, 5));
   use([&](LiveSettings& live) { live.network = file.toStdString(); });
   ASSERT_TRUE(isRed("networkProblem"));
-  EXPECT_TRUE(
-      find<QLabel>("networkProblem").text().contains("touch.palprec: is a recording, not a network. Palp's own stays"))
+  EXPECT_TRUE(find<QLabel>("networkProblem")
+                  .text()
+                  .contains("touch.palprec: is a recording, not a network. Still in use: Built-in network"))
       << find<QLabel>("networkProblem").text().toStdString();
 }
 
@@ -340,7 +341,7 @@ TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre)
   EXPECT_FALSE(report().contains("The frames have changed"));
   find<QTableWidget>("labelledFrames").selectRow(3);
   click("removeFrame");
-  EXPECT_TRUE(report().contains("The frames have changed since: 7 now, 8 are needed")) << report().toStdString();
+  EXPECT_TRUE(report().contains("The frames have changed since the fit: 7 now, 8 are needed")) << report().toStdString();
 }
 
 } // namespace

@@ -43,7 +43,7 @@ TEST(LiveDrawings, NothingStandsWhereNothingStandsOutOfTheNoise) {
   LiveFrame frame = pressed();
   frame.forces.shown = {false};
   EXPECT_TRUE(arrowsOf(frame.forces).empty());
-  EXPECT_NE(joined(forceLines(frame, {})).find("at rest"), std::string::npos);
+  EXPECT_NE(joined(forceLines(frame, {})).find("no touch"), std::string::npos);
 }
 
 TEST(LiveDrawings, AtRestTheWordsHoldTheForceThatTheCurvesDraw) {
@@ -52,7 +52,7 @@ TEST(LiveDrawings, AtRestTheWordsHoldTheForceThatTheCurvesDraw) {
   frame.forces.forces_N = Eigen::Vector3d(0, 0, 0.58);
   frame.forces.standardDeviation_N = Eigen::Vector3d(0.001, 0.001, 0.6);
   const std::string words = joined(forceLines(frame, {}));
-  EXPECT_NE(words.find("at rest: (0.00, 0.00, 0.58) N does not stand out of its deviation, (0.001, 0.001, 0.6) N"),
+  EXPECT_NE(words.find("no touch: (0.00, 0.00, 0.58) N is within its deviation, (0.001, 0.001, 0.6) N"),
             std::string::npos)
       << words;
 }

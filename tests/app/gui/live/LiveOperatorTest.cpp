@@ -36,9 +36,9 @@ TEST_F(LiveOperator, SaysNothingAgainstTheUntouchedDemoAndDoubtsADriftingBoard) 
   ASSERT_TRUE(waitForArrow());
   ASSERT_TRUE(waitForFrames(150));
   for (const LiveHistory::Entry& entry : page.host().history().entries()) EXPECT_EQ(entry.frame->forces.doubt, "");
-  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "fits"; }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "plausible"; }));
   type<QDoubleSpinBox>("warming", "100");
-  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "doubted"; }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "implausible"; }));
   EXPECT_EQ(find<QLabel>("liveTrust").property("role"), "problem");
 }
 
@@ -47,7 +47,7 @@ TEST_F(LiveOperator, SuggestsATareWhereTheBoardHasDriftedUntilItIsDone) {
   find<QCheckBox>("touchHeld").click();
   type<QDoubleSpinBox>("touch_Fz", "0");
   type<QDoubleSpinBox>("warming", "20");
-  ASSERT_TRUE(wait([&] { return find<QPushButton>("tare").text() == "Tare: it drifted"; }));
+  ASSERT_TRUE(wait([&] { return find<QPushButton>("tare").text() == "Tare now (drifted)"; }));
   EXPECT_TRUE(find<QLabel>("liveClimateUnit").text().contains("N: tare"));
   type<QDoubleSpinBox>("warming", "0");
   click("tare");
@@ -75,7 +75,7 @@ TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
   ASSERT_TRUE(wait([&] { return page.host().simulatesOwnDesign(); })) << said.join("; ").toStdString();
   ASSERT_TRUE(wait([&] { return page.host().status().info && page.host().status().info->columnWires == 12; }));
   EXPECT_TRUE(waitForArrow()) << page.host().status().decoderProblem;
-  EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Made for the simulated design"); }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Network of the simulated design"); }));
   recordTo(folder.filePath("own.palprec"));
   ASSERT_TRUE(startsToRecord());
   workbench.history().undo(); // the paper's design again, and its board and network
@@ -84,7 +84,7 @@ TEST_F(LiveOperator, TheSimulatedBoardSimulatesTheProjectsDesign) {
   EXPECT_EQ(page.host().status().info->columnWires, 12);
   ASSERT_TRUE(stopsToRecord());
   ASSERT_TRUE(wait([&] { return page.host().status().info && page.host().status().info->columnWires == 30; }));
-  EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Palp's own"); }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("networkName").text().startsWith("Built-in network"); }));
   EXPECT_TRUE(waitForArrow());
 }
 
@@ -151,7 +151,7 @@ TEST_F(LiveOperator, PullingOutAndPluggingInMovesNoButton) {
     EXPECT_EQ(plug.mapTo(&page, QPoint()), place);
     click("plug");
     ASSERT_TRUE(waitForState(LiveState::Streaming));
-    ASSERT_TRUE(wait([&] { return plug.text() == "Pull out" && banner().isEmpty(); }));
+    ASSERT_TRUE(wait([&] { return plug.text() == "Unplug" && banner().isEmpty(); }));
     EXPECT_EQ(plug.mapTo(&page, QPoint()), place);
   }
 }
@@ -427,7 +427,7 @@ TEST_F(LiveOperator, AnAlarmGoesOffOutOfSightAndIsToldUntilTheSceneIsSeen) {
     return looked.isEmpty();
   })) << "it still looks";
   EXPECT_EQ(page.lamp().kind, LiveLampState::Kind::Waits) << "that nothing is read is seen in other scenes";
-  EXPECT_TRUE(page.lamp().words.startsWith("Live waits"));
+  EXPECT_TRUE(page.lamp().words.startsWith("Live is waiting"));
 }
 
 } // namespace

@@ -144,7 +144,7 @@ TEST_F(Live, CountsLostReportsApartFromBadOnes) {
   ASSERT_TRUE(wait([&] { return page.host().status().counts.lost > 0; }));
   ASSERT_TRUE(wait([&] { return find<QLabel>("liveLosses").text() != "0 lost"; }));
   EXPECT_TRUE(find<QLabel>("liveLosses").text().endsWith(" lost"));
-  EXPECT_TRUE(find<QLabel>("liveLossesUnit").text().startsWith("0 bad, "))
+  EXPECT_TRUE(find<QLabel>("liveLossesUnit").text().startsWith("0 corrupt, "))
       << find<QLabel>("liveLossesUnit").text().toStdString();
 }
 
@@ -194,7 +194,7 @@ TEST_F(Live, RefinesTheNetworkWithFramesOfAFileThatHasGoneSince) {
   ASSERT_TRUE(QFile::remove(file));
   click("fitCalibration");
   ASSERT_TRUE(wait([&] { return calibration.calibration().has_value(); })) << said.join("; ").toStdString();
-  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("The newest:"));
+  EXPECT_TRUE(find<QLabel>("calibrationReport").text().contains("Newest:"));
   const QString broken = folder.filePath("broken.csv");
   ASSERT_TRUE(QFile(broken).open(QIODevice::WriteOnly));
   answerFileDialog(broken);

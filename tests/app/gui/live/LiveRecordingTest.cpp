@@ -187,12 +187,12 @@ TEST_F(LiveRecording, SaysBeforehandThatTheNextOneGetsAnotherName) {
   const QString file = folder.filePath("touch.palprec");
   recordTo(file);
   auto& words = find<QLabel>("recorded");
-  EXPECT_TRUE(wait([&] { return words.text() == "Nothing is recorded."; }));
+  EXPECT_TRUE(wait([&] { return words.text() == "Not recording."; }));
   QFile there(file);
   ASSERT_TRUE(there.open(QIODevice::WriteOnly));
   recordTo({});
   recordTo(file);
-  EXPECT_TRUE(wait([&] { return words.text().startsWith("touch.palprec is there: the next one gets date"); }))
+  EXPECT_TRUE(wait([&] { return words.text().startsWith("touch.palprec exists: the next recording gets date"); }))
       << words.text().toStdString();
 }
 
@@ -219,7 +219,7 @@ TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
   ASSERT_TRUE(startsToRecord());
   click("plug");
   ASSERT_TRUE(waitForState(LiveState::Searching));
-  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Waits for the board"); }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Waiting for the board"); }));
   EXPECT_EQ(find<QPushButton>("record").text(), "Stop recording");
   EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "none"; })) << "there is nothing to trust";
   const double before_s = page.host().recorded_s();
@@ -229,7 +229,7 @@ TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
   click("plug");
   ASSERT_TRUE(wait([&] { return page.host().status().recording; }));
   EXPECT_TRUE(wait([&] { return page.host().recorded_s() > before_s; }));
-  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Records: "); }));
+  EXPECT_TRUE(wait([&] { return find<QLabel>("recorded").text().startsWith("Recording: "); }));
   click("plug");
   ASSERT_TRUE(wait([&] { return page.host().status().recordingWaits; }));
   click("record");

@@ -215,7 +215,7 @@ TEST_F(LiveReplay, SaysThatTheReplayStandsAndNotTheBoard) {
       << page.lamp().words.toStdString();
   click("replayPause");
   ASSERT_TRUE(waitForState(LiveState::Ended));
-  EXPECT_TRUE(page.lamp().words.startsWith("Played to its end: recording touch.palprec"))
+  EXPECT_TRUE(page.lamp().words.startsWith("Replay ended: recording touch.palprec"))
       << page.lamp().words.toStdString();
   click("replayBack");
   EXPECT_TRUE(waitForState(LiveState::Paused)) << "the end can be stepped back from";
@@ -225,11 +225,11 @@ TEST_F(LiveReplay, DrawsAMarkThatIsSetAndSaysThatARecordingIsACopy) {
   ASSERT_TRUE(played());
   find<QCheckBox>("replayLoop").click(); // it plays on and on
   ASSERT_TRUE(waitForState(LiveState::Streaming));
-  EXPECT_TRUE(wait([&] { return find<QPushButton>("record").text() == "Record a copy"; }));
+  EXPECT_TRUE(wait([&] { return find<QPushButton>("record").text() == "Record what is played"; }));
   const QString copy = folder.filePath("copy.palprec");
   recordTo(copy);
   ASSERT_TRUE(startsToRecord()) << said.join("; ").toStdString();
-  EXPECT_TRUE(said.join(' ').contains("Copies what is played")) << said.join("; ").toStdString();
+  EXPECT_TRUE(said.join(' ').contains("Recording what is played")) << said.join("; ").toStdString();
   ASSERT_TRUE(held());
   const auto jumps = last() == nullptr ? 0 : last()->jumps;
   type<QDoubleSpinBox>("replayPlace", "0.1");

@@ -86,9 +86,9 @@ TEST_F(NetworkList, TakesAwayAllThatAreMarkedAndBringsThemBackToWhereTheyWere) {
   const auto kept = network.kept();
   EXPECT_FALSE(find<QPushButton>("bringBack").isEnabled());
   list.setCurrentCell(2, 0);
-  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Take away");
+  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Remove");
   list.selectionModel()->select(list.model()->index(0, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
-  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Take 2 away") << "what goes is said before";
+  EXPECT_EQ(find<QPushButton>("takeAway").text(), "Remove 2") << "what goes is said before";
   QTest::mouseClick(&find<QPushButton>("takeAway"), Qt::LeftButton);
   ASSERT_EQ(list.rowCount(), 1);
   EXPECT_EQ(network.kept()[0], kept[1]);

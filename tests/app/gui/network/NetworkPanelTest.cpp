@@ -62,12 +62,12 @@ TEST_F(NetworkPanel, RowsThatTheDesignDoesNotHaveAreRefusedAtTheField) {
 TEST_F(NetworkPanel, TheDecoderOfTouchesLearnsForceAndPlaceByItself) {
   auto& target = find<QComboBox>("target");
   find<QComboBox>("decoder").setCurrentText("touch");
-  EXPECT_EQ(target.currentText(), "force and place");
+  EXPECT_EQ(target.currentText(), "Force and position");
   EXPECT_FALSE(target.isEnabled()) << "it has no other";
   EXPECT_EQ(workbench.project().network.target, DecoderTarget::ForceAndPlace);
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier); // one edit, taken back as one
   EXPECT_EQ(find<QComboBox>("decoder").currentText(), "rbf");
-  EXPECT_EQ(target.currentText(), "the force");
+  EXPECT_EQ(target.currentText(), "Force");
   EXPECT_TRUE(target.isEnabled());
   Project older = workbench.project();
   older.network.decoder = DecoderKind::TouchInversion;
@@ -78,11 +78,11 @@ TEST_F(NetworkPanel, TheDecoderOfTouchesLearnsForceAndPlaceByItself) {
 TEST_F(NetworkPanel, ADecoderAfterThatOfTouchesLearnsWhatItDidBefore) {
   const auto& target = find<QComboBox>("target");
   for (const char* decoder : {"touch", "ml"}) find<QComboBox>("decoder").setCurrentText(decoder);
-  EXPECT_EQ(target.currentText(), "the force");
+  EXPECT_EQ(target.currentText(), "Force");
   EXPECT_EQ(workbench.project().network.target, DecoderTarget::Force);
   find<QComboBox>("target").setCurrentIndex(1);
   for (const char* decoder : {"touch", "ml"}) find<QComboBox>("decoder").setCurrentText(decoder);
-  EXPECT_EQ(target.currentText(), "force and place");
+  EXPECT_EQ(target.currentText(), "Force and position");
 }
 
 TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
@@ -94,7 +94,7 @@ TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
   other.design.block_mm.z() = 6;
   workbench.edit("height", other);
   EXPECT_FALSE(words().contains("<b>"));
-  EXPECT_TRUE(words().contains("Of an earlier design")) << words().toStdString();
+  EXPECT_TRUE(words().contains("For an earlier design")) << words().toStdString();
   workbench.history().undo();
   EXPECT_TRUE(words().contains("<b>"));
   network.cancel();
@@ -108,13 +108,13 @@ TEST_F(NetworkPanel, OldNumbersAreGreyWithTheReasonAndNeverBold) {
 TEST_F(NetworkPanel, TheOptionsSayWhatTheModeSaysAndWhatDoesNotActIsGrey) {
   QTest::mouseClick(&find<QToolButton>("moreOptions"), Qt::LeftButton);
   const auto first = [&](const char* box) { return find<QComboBox>(box).itemText(0); };
-  EXPECT_EQ(first("scaler"), "mode: global");
-  EXPECT_EQ(first("tail"), "mode: linear");
+  EXPECT_EQ(first("scaler"), "From mode: global");
+  EXPECT_EQ(first("tail"), "From mode: linear");
   find<QDoubleSpinBox>("noise").setValue(0.01);
-  EXPECT_EQ(first("scaler"), "mode: whiten");
+  EXPECT_EQ(first("scaler"), "From mode: whiten");
   EXPECT_TRUE(find<QLineEdit>("ridge").placeholderText().contains("leave-one-out"));
   find<QComboBox>("mode").setCurrentIndex(1);
-  EXPECT_EQ(first("scaler"), "mode: minmax");
+  EXPECT_EQ(first("scaler"), "From mode: minmax");
   find<QComboBox>("decoder").setCurrentText("linear");
   EXPECT_FALSE(find<QComboBox>("scaler").isEnabled());
   EXPECT_FALSE(find<QDoubleSpinBox>("spread").isEnabled());
@@ -140,7 +140,7 @@ TEST_F(NetworkPanel, OneClickTakesThePapersSpreadWhichTheChartMarks) {
   generate();
   trained();
   auto& paper = find<QPushButton>("paperSpread");
-  EXPECT_EQ(paper.text(), "the paper's: 1.5");
+  EXPECT_EQ(paper.text(), "Paper's: 1.5");
   QTest::mouseClick(&paper, Qt::LeftButton);
   EXPECT_EQ(workbench.project().network.chosenSpread, 1.5);
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->decoder.report.spread == 1.5; }, kPatience_ms));
@@ -289,7 +289,7 @@ TEST_F(NetworkPanel, NoiseIsUnderstoodAsAShareWithAnExponentAndAsPercentAndSaysW
       EXPECT_NEAR(noise.value(), 100 * typed.share, 1e-12) << typed.keys;
       EXPECT_EQ(noise.text(), typed.shown) << typed.keys;
       const QString words = find<QLabel>("noiseWords").text();
-      EXPECT_TRUE(words.contains(QString("%1 (a share of %2)").arg(typed.shown).arg(typed.share)))
+      EXPECT_TRUE(words.contains(QString("%1 (%2 ppm)").arg(typed.shown).arg(1e6 * typed.share)))
           << words.toStdString();
     }
   EXPECT_DOUBLE_EQ(workbench.project().network.noise, 5e-6);

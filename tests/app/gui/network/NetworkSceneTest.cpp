@@ -37,7 +37,7 @@ TEST_F(NetworkScene, GoesOnWithSamplesWhereItWasStopped) {
     ASSERT_TRUE(idle());
   }
   ASSERT_EQ(network.samples(), nullptr) << "all samples were made before the cancel";
-  EXPECT_TRUE(find<QPushButton>("generate").text().contains("Go on"));
+  EXPECT_TRUE(find<QPushButton>("generate").text().contains("Continue"));
   EXPECT_TRUE(find<QLabel>("samplesWords").text().contains("Stopped at sample"));
   generate();
   const SampleSet resumed = network.samples()->training;
@@ -159,7 +159,7 @@ TEST_F(NetworkScene, AnEditOfTheNetworkDoesNotEndTheMakingOfSamples) {
   EXPECT_TRUE(network.generating()) << "and nothing is trained on the old samples";
   network.train(workbench.project().network);
   EXPECT_TRUE(network.generating()) << "whoever asks";
-  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("Samples are being made"));
+  EXPECT_TRUE(find<QLabel>("trainingProblem").text().contains("Samples are being generated"));
   network.cancel();
   ASSERT_TRUE(idle());
   EXPECT_TRUE(find<QPushButton>("train").isEnabled());
@@ -210,7 +210,7 @@ TEST_F(NetworkScene, TheNoiseBoundStandsBesideTheErrorsAndBelowTheDecoders) {
   trained();
   const auto words = [&] { return find<QLabel>("fitWords").text(); };
   EXPECT_FALSE(words().contains("Cramer-Rao bound, with prior [% of range]")) << "without noise there is none";
-  EXPECT_TRUE(words().contains("A noise of the test puts")) << words().toStdString();
+  EXPECT_TRUE(words().contains("Set \"Test noise\" to see")) << words().toStdString();
   find<QDoubleSpinBox>("testNoise").setValue(0.01);
   const NoiseBound bound = noiseBound(network.samples()->training, InputKind::Resistance, {4}, 1e-4);
   const QString fx = QString::number(bound.withPriorPercent[0], 'g', 3);
@@ -272,7 +272,7 @@ TEST_F(NetworkScene, OpeningTheSamplesThatAreThereKeepsWhatWasMadeOfThem) {
   answerFileDialog(file);
   QTest::mouseClick(&find<QPushButton>("openSamples"), Qt::LeftButton);
   auto& said = find<QLabel>("trainingProblem");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return said.text().contains("there already"); }, kPatience_ms))
+  ASSERT_TRUE(QTest::qWaitFor([&] { return said.text().contains("already loaded"); }, kPatience_ms))
       << said.text().toStdString();
   EXPECT_EQ(network.fit(), fit);
   EXPECT_EQ(said.property("role").toString(), "hint") << "nothing is wrong: it is not red";

@@ -65,7 +65,7 @@ TEST_F(NetworkSources, EachFileHoldsTheCommandsOfItsOwnNumbersAndSaysWhetherThey
     EXPECT_TRUE(has(text, "# palp sweep train.csv") && has(text, " --ridge 0.001 ")) << name << '\n' << text;
     EXPECT_FALSE(has(text, "0.25 ") || has(text, "palp train")) << name << '\n' << text;
     EXPECT_TRUE(has(text, "--mapped 9x8x2") && !has(text, "12x8x2")) << text;
-    EXPECT_TRUE(has(text, "# stale when it was saved: The sweep is of other settings (ridge 0.001, now 0.25)."))
+    EXPECT_TRUE(has(text, "# stale when it was saved: The sweep belongs to other settings (ridge 0.001, now 0.25)."))
         << text;
   }
   for (const char* name : {"decoders.csv", "trialsTime.csv"}) {
@@ -76,8 +76,8 @@ TEST_F(NetworkSources, EachFileHoldsTheCommandsOfItsOwnNumbersAndSaysWhetherThey
       EXPECT_TRUE(has(text, option.c_str())) << option << text;
     }
     EXPECT_TRUE(has(text, " --ridge 0.001 ") && !has(text, "--ridge 0.25")) << text;
-    EXPECT_TRUE(has(text, "The comparison is of other settings (ridge 0.001, now 0.25).")) << text;
-    EXPECT_FALSE(has(text, "palp sweep") || has(text, "The sweep is")) << text;
+    EXPECT_TRUE(has(text, "The comparison belongs to other settings (ridge 0.001, now 0.25).")) << text;
+    EXPECT_FALSE(has(text, "palp sweep") || has(text, "The sweep belongs")) << text;
   }
   EXPECT_TRUE(has(head("trialsError.csv"), "# palp sweep")) << "the swept curve stands in it";
   const std::string fit = head("relativeError.csv");

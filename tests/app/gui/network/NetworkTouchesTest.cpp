@@ -44,8 +44,9 @@ protected:
     EXPECT_LT(guess.places_mm.maxCoeff(), 12) << "24 mm wide";
     EXPECT_GT(its.places_mm.minCoeff(), 20);
     const QString words = guessWords(network, wrong);
-    EXPECT_TRUE(words.contains("worse than knowing nothing")) << words.toStdString();
-    EXPECT_TRUE(words.contains("place x") && words.contains("place y") && !words.contains("Fz")) << words.toStdString();
+    EXPECT_TRUE(words.contains("worse than always predicting")) << words.toStdString();
+    EXPECT_TRUE(words.contains("position x") && words.contains("position y") && !words.contains("Fz"))
+        << words.toStdString();
   }
   [[nodiscard]] const TouchSampling& touches() const { return *workbench.project().samples.touches; }
 };
@@ -65,7 +66,7 @@ TEST_F(SampledTouches, AreThoseOfTheCommandLine) {
 
   setNumber("touchMargin", 16);
   EXPECT_FALSE(find<QPushButton>("generate").isEnabled());
-  EXPECT_TRUE(find<QLabel>("touchProblem").text().contains("From the sides: 16 mm; allowed is at most 15 mm"))
+  EXPECT_TRUE(find<QLabel>("touchProblem").text().contains("Margin to the edges: got 16 mm, expected at most 15 mm"))
       << find<QLabel>("touchProblem").text().toStdString();
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(touches().margin_mm, 3);
@@ -89,16 +90,16 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
   }
   trained();
   EXPECT_FALSE(find<ChartView>("placeError").isVisibleTo(&window)) << "forces alone were learned";
-  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("place x"));
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("position x"));
   choose("target", 1); // trains at once
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->error.place.has_value(); }, kPatience_ms));
   ASSERT_TRUE(idle());
   settle();
   EXPECT_LT(network.fit()->error.place->median_mm, 6) << "a guess is some 11 mm off";
-  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("place x")) << "in the table of errors";
-  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("worse than knowing nothing"));
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("position x")) << "in the table of errors";
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("worse than always predicting"));
   expectWarningOfAGuess();
-  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("Its places are"))
+  EXPECT_TRUE(find<QLabel>("fitWords").text().contains("Its positions are"))
       << find<QLabel>("fitWords").text().toStdString();
   EXPECT_EQ(find<ChartView>("placeError").chart().series[0].x.size(), 20u);
 
@@ -109,12 +110,11 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
       QTest::qWaitFor([&] { return find<QLabel>("fitWords").text().contains("Bounds (Cramer-Rao"); }, kPatience_ms))
       << find<QLabel>("fitWords").text().toStdString();
   ASSERT_TRUE(idle());
-  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("by what it has learned")) << "radial bases say none";
+  EXPECT_FALSE(find<QLabel>("fitWords").text().contains("by its own model")) << "radial bases say none";
   SampleBounds learned; // training a decoder that says them takes most of a minute
   learned.learned.assign(20, {Eigen::Vector3d(0.1, 0.1, 0.125), Eigen::Vector2d(0.3, 0.4)});
-  EXPECT_TRUE(
-      boundWords(network, *network.fit(), &learned)
-          .contains("at each touch, by what it has learned, medians): Fz 0.125 N, place 0.5 mm; its errors are "));
+  EXPECT_TRUE(boundWords(network, *network.fit(), &learned)
+                  .contains("at each touch, by its own model, medians): Fz 0.125 N, place 0.5 mm; its errors are "));
 
   QTemporaryDir folder;
   const std::filesystem::path file = folder.filePath("touches.csv").toStdString();

@@ -143,7 +143,7 @@ TEST_F(ProjectFile, KeepsTheBoardsBesideTheFirstAndRefusesMoreThanFit) {
   EXPECT_NE(wrong.find("more_boards[0].device"), std::string::npos) << wrong;
   project.moreBoards.resize(Project::kMostBoards);
   const std::string many = refusal(projectText(project).toStdString());
-  EXPECT_NE(many.find("at most 3 boards"), std::string::npos) << many;
+  EXPECT_NE(many.find("at most 3 further boards"), std::string::npos) << many;
 }
 
 TEST_F(ProjectFile, RefusesAlarmsThatAreNoNumbers) {

@@ -39,7 +39,7 @@ TEST(ResultCsv, HoldsTheElectrodesOfBothLayersAndSaysWhetherTheLowerOnesMove) {
   for (const bool follows : {false, true}) {
     design.lowerFollowsRubber = follows;
     const QString text = electrodesCsv({design, kLoad}, moved);
-    EXPECT_EQ(text.contains("holds them still"), !follows);
+    EXPECT_EQ(text.contains("fixed in the design"), !follows);
     const QStringList table = tableOf(text);
     EXPECT_EQ(table.filter(QRegularExpression("^upper,.*,0,0,-0.25$")).size(), design.upper.electrodes());
     EXPECT_EQ(table.filter(QRegularExpression(follows ? "^lower,.*,0.125,0,0$" : "^lower,.*,0,0,0$")).size(),

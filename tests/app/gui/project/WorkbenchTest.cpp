@@ -93,7 +93,7 @@ TEST(Workbench, NamesAnEntryAfterWhatChangedWithItsValues) {
   next.load.areas.push_back({3, {0, 0, -1}});
   workbench.closeEntry();
   workbench.edit("load", next);
-  EXPECT_EQ(workbench.history().undoText(), "area 3: a load of (0, 0, -1) N");
+  EXPECT_EQ(workbench.history().undoText(), "area 3: load of (0, 0, -1) N");
   next.load.areas = loaded.load.areas;
   next.network.chosenSpread = 2;
   workbench.closeEntry();

@@ -144,7 +144,7 @@ TEST_F(ReportsPageTest, AnEarlierReportStandsBelowItsOwnKindAndItsTimeIsTheEstim
   QSettings().remove("reportTimes"); // as if it had been run by another installation
   const ReportsPage again(workbench);
   auto* kinds = again.findChild<QComboBox*>("reportKind");
-  const QString estimate = "as the last time on this machine";
+  const QString estimate = "as in the last run on this machine";
   auto* words = again.findChild<QLabel*>("reportState");
   EXPECT_FALSE(words->text().contains(estimate)) << "of the kind that was not run";
   kinds->setCurrentText("stability");
@@ -350,7 +350,7 @@ TEST_F(ReportsPageTest, SaysThePathWhereNoProgramShowsThePage) {
   run("stability");
   ASSERT_TRUE(ended());
   QTest::mouseClick(&find<QPushButton>("openReport"), Qt::LeftButton); // offscreen there is no desktop to ask
-  EXPECT_TRUE(state().startsWith("Nothing on this machine shows it")) << state().toStdString();
+  EXPECT_TRUE(state().startsWith("No application on this computer")) << state().toStdString();
   EXPECT_TRUE(state().contains(inReport("report.html")));
 }
 
@@ -358,7 +358,7 @@ TEST_F(ReportsPageTest, AFolderThatCannotBeMadeIsNamed) {
   QFile(folder.filePath("file")).open(QIODevice::WriteOnly);
   keepIn(folder.filePath("file"));
   run("stability");
-  EXPECT_TRUE(state().contains("cannot be made")) << state().toStdString();
+  EXPECT_TRUE(state().contains("cannot be created")) << state().toStdString();
   EXPECT_TRUE(find<QPushButton>("runReport").isEnabled());
 }
 

@@ -155,7 +155,7 @@ TEST_F(StudyFormTest, SavesAFileThatThePanelOpensAgain) {
   click("openStudy");
   EXPECT_EQ(find<QLineEdit>("studyValues0").text(), "4.5..6 x 4 log");
   EXPECT_TRUE(state().startsWith("4 designs")) << state().toStdString();
-  EXPECT_EQ(find<QComboBox>("studyDesign").currentText(), "the study file's design");
+  EXPECT_EQ(find<QComboBox>("studyDesign").currentText(), "The study file's design");
   type("studyValues0", "4.5, 5");
   window.showScene("design");
   dropOn(window, file);

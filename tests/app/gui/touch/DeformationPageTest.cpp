@@ -249,7 +249,7 @@ TEST_F(DeformationPageTest, LightsTheElectrodesOfAClickedCell) {
   const int electrode = (*cell)[1] * design.electrodesPerColumnWire() + 1;
   const QPointF ball = block.placeOf(design.lowerElectrodes_mm().col(electrode)); // it is held
   EXPECT_GT(workbench.touch().electrodes()->lower_mm.col(electrode).norm(), 0) << "the rubber around it moves";
-  const auto words = QString("column-wire %1, electrode 1: of the chosen resistance").arg((*cell)[1]);
+  const auto words = QString("column-wire %1, electrode 1: of the selected resistance").arg((*cell)[1]);
   EXPECT_EQ(block.tipAt(ball), words) << "among balls that mark other things";
   EXPECT_EQ(block.tipAt(QPointF(2, 2)), QString());
   ViewSettings view = workbench.project().view;
@@ -313,7 +313,7 @@ TEST_F(DeformationPageTest, ShowsARowWireAndTheTableOfElectrodes) {
   ASSERT_EQ(table.rowCount(), 100 + 90) << "both layers";
   EXPECT_EQ(cell(13, 0), "upper");
   EXPECT_EQ(cell(13, 1) + "," + cell(13, 2), "1,3");
-  EXPECT_EQ(cell(100 + 25, 0), "lower, held");
+  EXPECT_EQ(cell(100 + 25, 0), "lower, fixed");
   EXPECT_EQ(cell(100 + 25, 1) + "," + cell(100 + 25, 2), "8,1");
   const Eigen::Vector3d moved = workbench.touch().electrodes()->upper_mm.col(13);
   for (int axis = 0; axis < 3; ++axis) {

@@ -91,7 +91,7 @@ TEST(KeptPath, IsRefusedInASentenceWhereItsLoadAreasAreOtherPlaces) {
     keptPath(four, shown, {});
     FAIL() << "area 1 is another place there";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("another place"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("another position"), std::string::npos) << error.what();
   }
 }
 
@@ -103,7 +103,7 @@ TEST(KeptPath, IsRefusedInASentenceWhereTheKeptDesignHasNoSuchArea) {
     keptPath(one, shown, {});
     FAIL() << "the load is on area 1";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("kept design"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("reference design"), std::string::npos) << error.what();
   }
 }
 
@@ -205,7 +205,7 @@ TEST_F(KeptDesign, ThatCannotBearTheLoadIsSaidBesideTheResult) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return !workbench.kept().problem().isEmpty(); }, kPatience_ms));
   settle();
   const QString words = find<QLabel>("difference").text();
-  EXPECT_TRUE(words.contains("the kept design")) << words.toStdString();
+  EXPECT_TRUE(words.contains("reference design")) << words.toStdString();
   EXPECT_TRUE(words.contains("area 1")) << words.toStdString();
 }
 

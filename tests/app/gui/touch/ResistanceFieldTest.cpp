@@ -104,10 +104,10 @@ TEST_F(ResistanceField, IsNotComputedWhereNobodyLooksAndSaysWhereItWasStopped) {
   EXPECT_EQ(map().values.size(), 0);
   window.showScene("resistance");
   ASSERT_TRUE(window.busy());
-  EXPECT_TRUE(QString::fromStdString(map().title).contains("being computed")) << map().title;
+  EXPECT_TRUE(QString::fromStdString(map().title).contains("Computing")) << map().title;
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(idle());
-  EXPECT_TRUE(QString::fromStdString(map().title).contains("stopped")) << map().title;
+  EXPECT_TRUE(QString::fromStdString(map().title).contains("cancelled")) << map().title;
   window.showScene("design");
   window.showScene("resistance");
   EXPECT_TRUE(shown()) << map().title;
@@ -166,7 +166,7 @@ TEST_F(ResistanceField, FollowsTheCurrentOfTheChosenCellWhereItIsAskedFor) {
   choose("lawBar", Qt::Key_Up);
   ASSERT_EQ(workbench.project().design.field(), nullptr);
   EXPECT_FALSE(box.isEnabled());
-  EXPECT_TRUE(box.toolTip().contains("knows no current")) << box.toolTip().toStdString();
+  EXPECT_TRUE(box.toolTip().contains("no current field")) << box.toolTip().toStdString();
   EXPECT_FALSE(paths.isVisible());
   ASSERT_TRUE(idle());
   EXPECT_EQ(block.colorRange(), displacement);

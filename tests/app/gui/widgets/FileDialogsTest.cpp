@@ -54,7 +54,7 @@ TEST(FileDialogs, OfferANameThatBeginsWithTheProjects) {
     EXPECT_TRUE(askFileToSave(&page, "Save", proposal, "Tables (*.csv)").isEmpty());
     return name;
   };
-  EXPECT_EQ(offered("samples.csv"), "samples.csv") << "a project without a name";
+  EXPECT_EQ(offered("samples.csv"), "samples.csv") << "an untitled project";
   window.setWindowFilePath("/somewhere/finger v2.json");
   EXPECT_EQ(offered("samples.csv"), "finger v2-samples.csv");
   EXPECT_EQ(offered("finger v2.json"), "finger v2.json") << "the project itself";

@@ -53,14 +53,14 @@ TEST_F(StatusLampsTest, ToldIsWhatABoardDoesAndThatLiveWaitsWhereNobodyLooks) {
   auto& lamp = find<QToolButton>("liveLamp");
   EXPECT_TRUE(wait([&] { return lamp.isVisible() && lamp.text().contains("simulated board"); }));
   QTest::mouseClick(live.page().findChild<QPushButton*>("plug"), Qt::LeftButton);
-  EXPECT_TRUE(wait([&] { return lamp.text().contains("is out"); })) << lamp.text().toStdString();
+  EXPECT_TRUE(wait([&] { return lamp.text().contains("is unplugged"); })) << lamp.text().toStdString();
   EXPECT_TRUE(lamp.isVisible()) << "where one looks for it";
   EXPECT_EQ(lamp.property("role"), "alarm");
   QTest::mouseClick(live.page().findChild<QPushButton*>("plug"), Qt::LeftButton);
   EXPECT_TRUE(wait([&] { return lamp.property("role") == "streams"; }));
   window.showScene("reports");
-  EXPECT_TRUE(wait([&] { return lamp.text().contains("Live waits"); })) << lamp.text().toStdString();
-  EXPECT_TRUE(lamp.isVisible() && lamp.toolTip().contains("Nothing is read while nobody looks"));
+  EXPECT_TRUE(wait([&] { return lamp.text().contains("Live is waiting"); })) << lamp.text().toStdString();
+  EXPECT_TRUE(lamp.isVisible() && lamp.toolTip().contains("Nothing is read while this scene is hidden"));
   EXPECT_EQ(lamp.property("role"), "streams") << "nothing is wrong";
 }
 
@@ -84,7 +84,7 @@ TEST_F(StatusLampsTest, QuittingAsksOnceBeforeItEndsARecording) {
   EXPECT_TRUE(page().host().status().recording);
   ASSERT_EQ(asked.size(), 1);
   EXPECT_TRUE(asked[0].contains("not saved")) << asked[0].toStdString();
-  EXPECT_TRUE(asked[0].contains("touch.palprec is being recorded")) << asked[0].toStdString();
+  EXPECT_TRUE(asked[0].contains("touch.palprec is in progress")) << asked[0].toStdString();
   button = QMessageBox::Discard;
   window.close();
   EXPECT_FALSE(window.isVisible());

@@ -102,8 +102,7 @@ TEST_F(Undo, StaysOnASceneThatShowsTheChangeAlsoAcrossOtherSteps) {
   EXPECT_EQ(window.currentScene().objectName(), "design");
   window.showScene("resistance");
   workbench.history().setIndex(2);
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Done again"); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.statusBar()->currentMessage().startsWith("Redone"); }, kPatience_ms));
   EXPECT_EQ(window.currentScene().objectName(), "resistance");
 }
 

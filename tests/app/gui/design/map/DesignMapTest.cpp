@@ -123,7 +123,7 @@ TEST_F(DesignMapTest, ThatIsStoppedSaysSoAndOneThatCannotBeSaysWhy) {
   ASSERT_TRUE(window.busy());
   QTest::keyClick(&window, Qt::Key_Escape);
   ASSERT_TRUE(idle());
-  EXPECT_TRUE(words("mapWords").contains("Stopped")) << words("mapWords").toStdString();
+  EXPECT_TRUE(words("mapWords").contains("Cancelled")) << words("mapWords").toStdString();
   EXPECT_TRUE(find<QPushButton>("mapResolution").isEnabled());
   EXPECT_FALSE(workbench.project().studies.mapped);
   Project kinked = workbench.project();

@@ -97,7 +97,7 @@ TEST_F(IndenterPanelTest, IsSetByNumbersAndSaysWhatCannotBe) {
   setNumber("indenterRadius", 8);
   EXPECT_EQ(workbench.history().undoText(), "indenter 0: sphere 5 mm (0, 0, -1) N -> sphere 8 mm (0, 0, -1) N");
   setNumber("indenterX", 12);
-  EXPECT_EQ(workbench.history().undoText(), "indenter 0: place (15, 15) -> (12, 15) mm");
+  EXPECT_EQ(workbench.history().undoText(), "indenter 0: position (15, 15) -> (12, 15) mm");
   setNumber("force_x", 0.3);
   EXPECT_TRUE(words("loadProblem").contains("friction")) << words("loadProblem").toStdString();
   EXPECT_TRUE(find<QLabel>("loadProblem").isVisible());

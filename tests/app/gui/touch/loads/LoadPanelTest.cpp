@@ -77,7 +77,7 @@ TEST_F(LoadPanelTest, SetsADiscByNumbersAndKeepsItOnTheFace) {
   QTest::mouseClick(&find<QPushButton>("addDisc"), Qt::LeftButton);
   ASSERT_EQ(load().patches.size(), 1u);
   EXPECT_EQ(load().patches[0].centre_mm, Eigen::Vector2d(15, 15));
-  EXPECT_EQ(workbench.history().undoText(), "disc 0: a load of (0, 0, -3) N at (15, 15) mm");
+  EXPECT_EQ(workbench.history().undoText(), "disc 0: load of (0, 0, -3) N at (15, 15) mm");
   setNumber("discRadius", 5);
   EXPECT_EQ(workbench.history().undoText(), "disc 0: radius 2.5 -> 5 mm");
   setNumber("force_z", -3);
@@ -92,7 +92,7 @@ TEST_F(LoadPanelTest, SetsADiscByNumbersAndKeepsItOnTheFace) {
   EXPECT_TRUE(find<QLabel>("loadTitle").text().contains("disc 0"));
   QTest::mouseClick(&find<QPushButton>("clearLoad"), Qt::LeftButton);
   EXPECT_TRUE(load().patches.empty());
-  EXPECT_EQ(workbench.history().undoText(), "disc 0: taken away");
+  EXPECT_EQ(workbench.history().undoText(), "disc 0: removed");
   EXPECT_EQ(load().areas.size(), 1u);
 }
 

@@ -172,7 +172,7 @@ TEST_F(PathPanelTest, ATouchIsComparedWithItsForceUniform) {
   const KeptPath& path = *workbench.keptPath();
   EXPECT_EQ(path.load, uniform);
   EXPECT_LT((path.at(1).fields.displacement_mm - wanted.displacement_mm).norm(), 1e-6 * wanted.displacement_mm.norm());
-  EXPECT_TRUE(find<QLabel>("difference").text().contains("Less the force uniform"));
+  EXPECT_TRUE(find<QLabel>("difference").text().contains("Difference from uniform load"));
   window.showScene("resistance");
   auto& kind = find<QComboBox>("resistanceKind");
   kind.setCurrentIndex(static_cast<int>(ResistanceKind::LessKept));

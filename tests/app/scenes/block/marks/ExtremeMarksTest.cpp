@@ -32,9 +32,9 @@ TEST(ExtremeMarks, AreThoseOfWhatTheCutLeaves) {
   cut.options.cut = CutPlane{1, 15};
   const std::vector<PlacedText> marks = cut.marks();
   ASSERT_EQ(marks.size(), 2u);
-  EXPECT_EQ(marks[0].text, "largest of what the cut leaves 1 MPa");
+  EXPECT_EQ(marks[0].text, "largest shown 1 MPa");
   EXPECT_EQ(marks[0].place_mm.y(), 20);
-  EXPECT_EQ(marks[1].text, "smallest of what the cut leaves 0 MPa");
+  EXPECT_EQ(marks[1].text, "smallest shown 0 MPa");
   EXPECT_EQ(marks[1].place_mm.y(), 18);
   cut.options.cut = CutPlane{1, 25};
   EXPECT_TRUE(cut.marks().empty()) << "nothing stays";
