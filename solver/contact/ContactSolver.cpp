@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palp {
 
@@ -23,6 +24,10 @@ constexpr double roundingBelow = 1e-6;
 constexpr int tangentsToFindForces = 3;
 constexpr double forcesAreFoundBelow = 0.5;
 constexpr int stallsOfRounding = 3;
+// So many steps that fail while less than that of what is left of the load is reached are no progress: each takes two
+// tangents or three, and a step of a thousandth of the load comes after hundreds.
+constexpr int mostFailedSteps = 5;
+constexpr double progressOfRest = 1. / 8;
 // A new tangent takes the time of some twenty iterations with the one in use.
 constexpr double keptIterations = 20;
 constexpr int iterationsOfNewTangent = 5; // of a load step; what more are taken is laid to the old one's charge
@@ -101,7 +106,8 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
     newton.largestJ = forces_.largestJ;
   }
   const double largest = largestContactStep(path_[now_].indenters, now_ == 0);
-  double fraction = 0, size = largest;
+  double fraction = 0, size = largest, before = 0;
+  int failed = 0; // since the load fraction `before`
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
@@ -131,12 +137,18 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
       newton.smallestJ = forces_.smallestJ;
       newton.largestJ = forces_.largestJ;
       size = std::min(largest, stepGrowth * size);
+      if (fraction - before < progressOfRest * (1 - before)) continue;
+      before = fraction;
+      failed = 0;
       continue;
     }
     size = (target - fraction) / 2;
-    if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
+    const bool stuck = ++failed == mostFailedSteps;
+    if (outcome == Outcome::Cancelled || stuck || size < options_.smallestStep) {
       newton.cancelled = outcome == Outcome::Cancelled;
       newton.stopReason = stopReason(outcome, options_.iterationsAStep, fraction, target);
+      if (stuck && !newton.cancelled) newton.stopReason += ", and shorter steps lead no further";
+      if (!newton.cancelled) newton.stopReason += whyHard(last.contact);
       break;
     }
   }
@@ -147,6 +159,26 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   newton.steps = std::move(steps_);
   steps_.clear();
   return result;
+}
+
+/// What is known to be hard about what the indenters do, with what helps; else empty.
+std::string ContactSolver::whyHard(const ContactState& reached) const {
+  double finest_mm2 = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : points_) finest_mm2 = std::min(finest_mm2, point.area_mm2);
+  const double finest_mm = std::sqrt(finest_mm2);
+  for (std::size_t k = 0; k < indenters_.size(); ++k) {
+    const Indenter& one = path_[now_].indenters[k];
+    if (one.shape == IndenterShape::Flat && one.rim_mm < finest_mm)
+      return "; pressure peaks at the punch's rim of " + text(one.rim_mm) +
+             " mm, which is smaller than the mesh resolves (" + text(std::round(1000 * finest_mm) / 1000) +
+             " mm): a rounder rim, a finer mesh or less depth helps";
+    const double depth_mm = -reached.translations_mm(2, static_cast<Eigen::Index>(k));
+    if (isRound(one) && std::max(depth_mm, expected_[k].depth_mm) > one.radius_mm)
+      return "; the " + shapeName(one.shape) + " of radius " + text(one.radius_mm) +
+             " mm is pressed deeper than its radius, which stretches the elements under it too far: a larger radius or "
+             "less depth helps";
+  }
+  return {};
 }
 
 bool ContactSolver::frictionHoldsSome() const {
