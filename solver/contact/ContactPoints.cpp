@@ -19,8 +19,8 @@ double areaOfFace(const Mesh& mesh, Eigen::Index f, int a, int b, int c) {
   return (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
 }
 
-/// How deep an indenter is put into the undeformed body to see what it touches: a ball or cylinder that sinks in deeper
-/// than its radius has been as wide as it is on its way down, and is narrower at the face again.
+/// Depth [mm] in the undeformed body at which an indenter's candidate points are found. A ball or cylinder pressed
+/// deeper than its radius has its full width there, because it has passed through it.
 double depthOfSearch(const Indenter& indenter, double expected_mm, double margin) {
   const double deep_mm = margin * expected_mm, radius_mm = indenter.radius_mm;
   if (!isRound(indenter)) return deep_mm;

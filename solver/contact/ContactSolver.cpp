@@ -24,8 +24,8 @@ constexpr double roundingBelow = 1e-6;
 constexpr int tangentsToFindForces = 3;
 constexpr double forcesAreFoundBelow = 0.5;
 constexpr int stallsOfRounding = 3;
-// So many steps that fail while less than that of what is left of the load is reached are no progress: each takes two
-// tangents or three, and a step of a thousandth of the load comes after hundreds.
+// The solve ends where that many load steps have failed while less than that share of the remaining load was reached:
+// each takes two or three tangents, and there would be hundreds down to a thousandth of the load.
 constexpr int mostFailedSteps = 5;
 constexpr double progressOfRest = 1. / 8;
 // A new tangent takes the time of some twenty iterations with the one in use.
@@ -147,7 +147,7 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
     if (outcome == Outcome::Cancelled || stuck || size < options_.smallestStep) {
       newton.cancelled = outcome == Outcome::Cancelled;
       newton.stopReason = stopReason(outcome, options_.iterationsAStep, fraction, target);
-      if (stuck && !newton.cancelled) newton.stopReason += ", and shorter steps lead no further";
+      if (stuck && !newton.cancelled) newton.stopReason += "; smaller load steps do not converge either";
       if (!newton.cancelled) newton.stopReason += whyHard(last.contact);
       break;
     }
@@ -161,7 +161,7 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   return result;
 }
 
-/// What is known to be hard about what the indenters do, with what helps; else empty.
+/// Why such a load is known not to converge, and what helps; empty where nothing is known.
 std::string ContactSolver::whyHard(const ContactState& reached) const {
   double finest_mm2 = std::numeric_limits<double>::infinity();
   for (const ContactPoint& point : points_) finest_mm2 = std::min(finest_mm2, point.area_mm2);
@@ -169,14 +169,14 @@ std::string ContactSolver::whyHard(const ContactState& reached) const {
   for (std::size_t k = 0; k < indenters_.size(); ++k) {
     const Indenter& one = path_[now_].indenters[k];
     if (one.shape == IndenterShape::Flat && one.rim_mm < finest_mm)
-      return "; pressure peaks at the punch's rim of " + text(one.rim_mm) +
-             " mm, which is smaller than the mesh resolves (" + text(std::round(1000 * finest_mm) / 1000) +
-             " mm): a rounder rim, a finer mesh or less depth helps";
+      return "; the pressure at a sharp rim is unbounded: the rim radius of " + text(one.rim_mm) +
+             " mm is smaller than the mesh resolves (" + text(std::round(1000 * finest_mm) / 1000) +
+             " mm); use a larger rim radius, a finer mesh or a smaller depth";
     const double depth_mm = -reached.translations_mm(2, static_cast<Eigen::Index>(k));
     if (isRound(one) && std::max(depth_mm, expected_[k].depth_mm) > one.radius_mm)
       return "; the " + shapeName(one.shape) + " of radius " + text(one.radius_mm) +
-             " mm is pressed deeper than its radius, which stretches the elements under it too far: a larger radius or "
-             "less depth helps";
+             " mm is pressed deeper than its radius, which distorts the elements below it; use a larger radius or a "
+             "smaller depth";
   }
   return {};
 }

@@ -34,7 +34,7 @@ constexpr double finerByFactor = 0.6;
 /// Of the sizes in the bulk and, once more, at the bottom, where a pressure law sees the pressure at electrodes 3 to 6
 /// mm beside the free edges, whose clamped ends' stresses are steep there.
 constexpr double bulkForPressure = 0.5, bottomForPressure = 0.75;
-constexpr double feltInDepths = 3;
+constexpr double leastSideInDepths = 3;
 constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
 
 /// Lines along x, y, z; points are numbered along x, then y, then z.
@@ -239,12 +239,11 @@ private:
   bool changed_ = false, failed_ = false;
 };
 
-/// Sides of the load areas as the electrodes feel them: of what is narrower than some depths of the uppermost ones
-/// little is left there.
-Eigen::Vector2d feltSides(const SensorDesign& design) {
+/// Sides of a load area, no shorter than some depths of the uppermost electrodes: finer stresses decay above them.
+Eigen::Vector2d effectiveSides(const SensorDesign& design) {
   const Rectangle area = design.areaRectangle(0);
   const double depth = design.block_mm.z() - design.upperElectrodes_mm().row(2).maxCoeff();
-  return (area.high_mm - area.low_mm).cwiseMax(feltInDepths * depth);
+  return (area.high_mm - area.low_mm).cwiseMax(leastSideInDepths * depth);
 }
 
 void requireElements(const Grid& grid) {
@@ -255,13 +254,13 @@ void requireElements(const Grid& grid) {
 } // namespace
 
 Grading defaultGrading(const SensorDesign& design, double size_mm) {
-  const Eigen::Vector2d sides = feltSides(design);
+  const Eigen::Vector2d sides = effectiveSides(design);
   const double height = design.block_mm.z(), shortest = sides.minCoeff();
   // Stresses at the surface die out over the block's height or half an area, whichever is less.
   const Eigen::Vector2d reach = (sides / 2).cwiseMin(height);
   const double least = reach.minCoeff(), factor = size_mm / standardSize(design);
   Grading g;
-  // Along the long side of narrow areas nothing asks for cells as narrow as they are.
+  // The cells need not be narrow along the long side of narrow areas.
   g.bulk_mm = factor * 0.4 * (sides / 2).cwiseMin(2 * height).cwiseMax(shortest);
   g.border_mm = factor * 0.15 * reach;
   g.edge_mm = factor * 0.25 * reach;
@@ -280,7 +279,7 @@ Grading defaultGrading(const SensorDesign& design, double size_mm) {
 }
 
 double standardSize(const SensorDesign& design) {
-  return 0.4 * feltSides(design).minCoeff();
+  return 0.4 * effectiveSides(design).minCoeff();
 }
 
 Grading gradingFor(const SensorDesign& design, const MeshOptions& options, std::vector<FineZone>& zones) {

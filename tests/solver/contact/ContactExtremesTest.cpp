@@ -106,7 +106,7 @@ TEST(ContactWithoutAnEnd, ASharpPunchEndsAfterSomeStepsWithTheShareReachedAndThe
     EXPECT_LT(solution.reachedLoadFraction, 1);
     EXPECT_LT(stepsBegun(solution), 40) << "not down to a thousandth of the load";
     EXPECT_NE(solution.stopReason.find("between load fractions"), std::string::npos) << solution.stopReason;
-    EXPECT_NE(solution.stopReason.find("the punch's rim of "), std::string::npos) << solution.stopReason;
+    EXPECT_NE(solution.stopReason.find("the rim radius of "), std::string::npos) << solution.stopReason;
   }
 }
 
