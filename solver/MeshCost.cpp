@@ -10,7 +10,7 @@ namespace palp {
 namespace {
 
 /// Of one load on a mesh of tetrahedra of the paper's block, measured with 9,720 to 105,336 elements (1.2 to 79 s of
-/// processor time, 234 to 3,170 MB; resources/docs/numerics.md).
+/// processor time, 234 to 3,170 MB; resources/docs/numerics/solver.md).
 constexpr double kTets = 1e5, kSeconds = 72, kTimeGrowth = 1.8;
 constexpr double kProgram_MB = 100, kMemory_MB = 3000, kMemoryGrowth = 1.27;
 constexpr double kProcessors = 1.7; // that two cores are worth
