@@ -9,11 +9,11 @@ namespace palp {
 
 namespace {
 
-/// The default mesh of the paper's block, measured (resources/docs/numerics/factorisation.md): unknowns, memory of a
-/// solve, and seconds.
-constexpr double kUnknowns = 41070, kMemory_MB = 300, kSeconds = 1.2;
-/// How they grow with the unknowns: between flat blocks and cubes.
-constexpr double kMemoryGrowth = 1.15, kTimeGrowth = 1.5;
+/// Of one load on a mesh of tetrahedra of the paper's block, measured with 9,720 to 105,336 elements (1.2 to 79 s of
+/// processor time, 234 to 3,170 MB; resources/docs/numerics/solver.md).
+constexpr double kTets = 1e5, kSeconds = 72, kTimeGrowth = 1.8;
+constexpr double kProgram_MB = 100, kMemory_MB = 3000, kMemoryGrowth = 1.27;
+constexpr double kProcessors = 1.7; // that two cores are worth
 constexpr double kUnknownsATet = 4.2, kUnknownsAHex = 3.3;
 constexpr double kLong_s = 20, kLarge_MB = 2000;
 
@@ -23,29 +23,49 @@ std::string roughly(double value) {
   return text(std::round(value / unit) * unit);
 }
 
+bool isLarge(const MeshCost& cost) {
+  return cost.seconds > kLong_s || cost.memory_MB > kLarge_MB;
+}
+
+std::string thousands(const MeshCost& cost) {
+  return text(std::round(cost.elements / 1000)) + ",000";
+}
+
+std::string timeOf(const MeshCost& cost) {
+  return cost.seconds < 100 ? roughly(cost.seconds) + " s" : roughly(cost.seconds / 60) + " min";
+}
+
+std::string memoryOf(const MeshCost& cost) {
+  return roughly(cost.memory_MB / 1000) + " GB";
+}
+
 } // namespace
 
 MeshCost meshCost(const SensorDesign& design, const MeshOptions& options) {
   requireMeshable(design, options);
   MeshCost cost;
-  double unknowns = kUnknownsAHex;
+  double ofTets = 1;
   if (options.mapped) {
     cost.elements = double((*options.mapped)[0]) * (*options.mapped)[1] * (*options.mapped)[2];
+    ofTets = kUnknownsAHex / kUnknownsATet;
   } else {
     cost.elements = gradedElements(design, options);
-    unknowns = kUnknownsATet;
   }
-  const double growth = unknowns * cost.elements / kUnknowns;
-  cost.memory_MB = kMemory_MB * std::pow(growth, kMemoryGrowth);
-  cost.seconds = kSeconds * std::pow(growth, kTimeGrowth);
+  const double growth = ofTets * cost.elements / kTets;
+  cost.memory_MB = kProgram_MB + kMemory_MB * std::pow(growth, kMemoryGrowth);
+  cost.seconds = kSeconds / kProcessors * std::pow(growth, kTimeGrowth);
   return cost;
 }
 
 std::string costInWords(const MeshCost& cost) {
-  if (cost.seconds <= kLong_s && cost.memory_MB <= kLarge_MB) return {};
-  const std::string time = cost.seconds < 100 ? roughly(cost.seconds) + " s" : roughly(cost.seconds / 60) + " min";
-  return "the mesh has about " + text(std::round(cost.elements / 1000)) + ",000 elements: a load takes about " + time +
-         " and " + roughly(cost.memory_MB / 1000) + " GB of memory; a larger mesh size takes less";
+  if (!isLarge(cost)) return {};
+  return "the mesh has about " + thousands(cost) + " elements: a load takes about " + timeOf(cost) + " and " +
+         memoryOf(cost) + " of memory; a larger mesh size takes less";
+}
+
+std::string costInBrief(const MeshCost& cost) {
+  if (!isLarge(cost)) return {};
+  return ": " + thousands(cost) + " elements, about " + timeOf(cost) + " and " + memoryOf(cost);
 }
 
 } // namespace palp

@@ -15,5 +15,7 @@ MeshCost meshCost(const SensorDesign& design, const MeshOptions& options = {});
 
 /// A sentence with elements, memory and time where a load takes more than 20 s or 2 GB; else empty.
 std::string costInWords(const MeshCost& cost);
+/// The same in a few words that follow what is being done, as "Meshing"; else empty.
+std::string costInBrief(const MeshCost& cost);
 
 } // namespace palp

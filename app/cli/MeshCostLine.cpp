@@ -6,9 +6,10 @@
 
 namespace palp {
 
-void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session) {
+void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session, const std::string& which) {
   std::string words = costInWords(meshCost(design, options));
   if (words.empty()) return;
+  words = which + words;
   std::cerr << "palp: " << words << std::endl; // before the work, also into a file
   session.warnings.push_back(std::move(words));
 }

@@ -1,9 +1,11 @@
 #include "solver/contact/ContactPoints.h"
 
 #include "solver/contact/ContactEstimate.h"
+#include "solver/contact/ContactSteps.h"
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <map>
 
 namespace palp {
@@ -17,7 +19,19 @@ double areaOfFace(const Mesh& mesh, Eigen::Index f, int a, int b, int c) {
   return (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
 }
 
+/// Depth [mm] in the undeformed body at which an indenter's candidate points are found. A ball or cylinder pressed
+/// deeper than its radius has its full width there, because it has passed through it.
+double depthOfSearch(const Indenter& indenter, double expected_mm, double margin) {
+  const double deep_mm = margin * expected_mm, radius_mm = indenter.radius_mm;
+  if (!isRound(indenter)) return deep_mm;
+  return std::min(deep_mm, expected_mm > radius_mm ? radius_mm : std::max(radius_mm, touchableMargin * expected_mm));
+}
+
 } // namespace
+
+bool isRound(const Indenter& indenter) {
+  return indenter.shape != IndenterShape::Flat && indenter.shape != IndenterShape::Plane;
+}
 
 std::vector<ContactPoint> contactPoints(const Mesh& mesh) {
   std::map<int, double> areas;
@@ -49,7 +63,7 @@ std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& 
     for (const LoadCase& load : path) {
       const Indenter& indenter = load.indenters[i];
       const Eigen::Vector2d to = indenter.motion() ? indenter.motion()->shift_mm : Eigen::Vector2d::Zero();
-      const double depth = margin * contactEstimate(indenter, design).depth_mm;
+      const double depth = depthOfSearch(indenter, contactEstimate(indenter, design).depth_mm, margin);
       const int places = to == from ? 0 : placesOnTheWay;
       for (int k = 0; k <= places; ++k) {
         const Eigen::Vector2d sideways = from + (to - from) * (places > 0 ? double(k) / places : 0);

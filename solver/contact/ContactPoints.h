@@ -15,6 +15,9 @@ struct ContactPoint {
   int indenter = 0; ///< that may touch it
 };
 
+/// Ball, pin or cylinder: no flat end.
+bool isRound(const Indenter& indenter);
+
 /// All points of the top face, by ascending node.
 std::vector<ContactPoint> contactPoints(const Mesh& mesh);
 

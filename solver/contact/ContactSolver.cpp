@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palp {
 
@@ -24,6 +25,10 @@ constexpr double roundingBelow = 1e-6;
 constexpr int tangentsToFindForces = 3;
 constexpr double forcesAreFoundBelow = 0.5;
 constexpr int stallsOfRounding = 3;
+// The solve ends where that many load steps have failed while less than that share of the remaining load was reached:
+// each takes two or three tangents, and there would be hundreds down to a thousandth of the load.
+constexpr int mostFailedSteps = 5;
+constexpr double progressOfRest = 1. / 8;
 // A new tangent takes the time of some twenty iterations with the one in use.
 constexpr double keptIterations = 20;
 constexpr int iterationsOfNewTangent = 5; // of a load step; what more are taken is laid to the old one's charge
@@ -102,7 +107,8 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
     newton.largestJ = forces_.largestJ;
   }
   const double largest = largestContactStep(path_[now_].indenters, now_ == 0);
-  double fraction = 0, size = largest;
+  double fraction = 0, size = largest, before = 0;
+  int failed = 0; // since the load fraction `before`
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
@@ -132,12 +138,18 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
       newton.smallestJ = forces_.smallestJ;
       newton.largestJ = forces_.largestJ;
       size = std::min(largest, stepGrowth * size);
+      if (fraction - before < progressOfRest * (1 - before)) continue;
+      before = fraction;
+      failed = 0;
       continue;
     }
     size = (target - fraction) / 2;
-    if (outcome == Outcome::Cancelled || size < options_.smallestStep) {
+    const bool stuck = ++failed == mostFailedSteps;
+    if (outcome == Outcome::Cancelled || stuck || size < options_.smallestStep) {
       newton.cancelled = outcome == Outcome::Cancelled;
       newton.stopReason = stopReason(outcome, options_.iterationsAStep, fraction, target);
+      if (stuck && !newton.cancelled) newton.stopReason += "; smaller load steps do not converge either";
+      if (!newton.cancelled) newton.stopReason += whyHard(last.contact);
       break;
     }
   }
@@ -148,6 +160,26 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   newton.steps = std::move(steps_);
   steps_.clear();
   return result;
+}
+
+/// Why such a load is known not to converge, and what helps; empty where nothing is known.
+std::string ContactSolver::whyHard(const ContactState& reached) const {
+  double finest_mm2 = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : points_) finest_mm2 = std::min(finest_mm2, point.area_mm2);
+  const double finest_mm = std::sqrt(finest_mm2);
+  for (std::size_t k = 0; k < indenters_.size(); ++k) {
+    const Indenter& one = path_[now_].indenters[k];
+    if (one.shape == IndenterShape::Flat && one.rim_mm < finest_mm)
+      return "; the pressure at a sharp rim is unbounded: the rim radius of " + text(one.rim_mm) +
+             " mm is smaller than the mesh resolves (" + text(std::round(1000 * finest_mm) / 1000) +
+             " mm); use a larger rim radius, a finer mesh or a smaller depth";
+    const double depth_mm = -reached.translations_mm(2, static_cast<Eigen::Index>(k));
+    if (isRound(one) && std::max(depth_mm, expected_[k].depth_mm) > one.radius_mm)
+      return "; the " + shapeName(one.shape) + " of radius " + text(one.radius_mm) +
+             " mm is pressed deeper than its radius, which distorts the elements below it; use a larger radius or a "
+             "smaller depth";
+  }
+  return {};
 }
 
 bool ContactSolver::frictionHoldsSome() const {

@@ -46,6 +46,7 @@ private:
   /// Indenters that are free to go sideways are so, or stay for the moment where they are.
   enum class Sideways { AsLoaded, Held };
   [[nodiscard]] Outcome step(double from, double to, State& state, Sideways sideways);
+  [[nodiscard]] std::string whyHard(const ContactState& reached) const;
   [[nodiscard]] bool frictionHoldsSome() const;
   [[nodiscard]] Outcome newTangent(double fraction, const State& state);
   void setResidual(double fraction, const State& state);

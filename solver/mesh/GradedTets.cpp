@@ -35,6 +35,7 @@ constexpr double finerByFactor = 0.6;
 /// Of the sizes in the bulk and, once more, at the bottom, where a pressure law sees the pressure at electrodes 3 to 6
 /// mm beside the free edges, whose clamped ends' stresses are steep there.
 constexpr double bulkForPressure = 0.5, bottomForPressure = 0.75;
+constexpr double leastSideInDepths = 3;
 constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
 
 /// Lines along x, y, z; points are numbered along x, then y, then z.
@@ -59,10 +60,10 @@ struct Grid {
 
 void setHorizontal(Grid& grid, int d, double length, int parts, const Grading& grading) {
   SizeAlong& size = grid.sizes[d];
-  size = {grading.bulk_mm, grading.growth, {}};
+  size = {grading.bulk_mm(d), grading.growth, {}};
   for (int i = 0; i <= parts; ++i) {
     grid.stops[d].push_back(length * i / parts);
-    size.places.push_back({grid.stops[d].back(), i == 0 || i == parts ? grading.edge_mm : grading.border_mm});
+    size.places.push_back({grid.stops[d].back(), i == 0 || i == parts ? grading.edge_mm(d) : grading.border_mm(d)});
   }
 }
 
@@ -84,8 +85,8 @@ void addStops(std::vector<double>& stops, const SizeAlong& size, const Eigen::Ro
 }
 
 /// Size across a disc's rim: the areas' borders', less for a small disc.
-double rimSize(const Grading& grading, const FineDisc& disc) {
-  return grading.border_mm * std::min(1., disc.radius_mm / grading.bulk_mm);
+double rimSize(const Grading& grading, int d, const FineDisc& disc) {
+  return grading.border_mm(d) * std::min(1., disc.radius_mm / grading.bulk_mm(d));
 }
 
 Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::vector<FineDisc>& discs,
@@ -96,8 +97,8 @@ Grid gradedGrid(const SensorDesign& design, const Grading& grading, const std::v
   setHorizontal(grid, 1, block.y(), design.areas.rows, grading);
   for (const FineDisc& disc : discs)
     for (const double side : {-1., 1.}) {
-      grid.sizes[0].places.push_back({disc.x_mm + side * disc.radius_mm, rimSize(grading, disc)});
-      grid.sizes[1].places.push_back({disc.y_mm + side * disc.radius_mm, rimSize(grading, disc)});
+      grid.sizes[0].places.push_back({disc.x_mm + side * disc.radius_mm, rimSize(grading, 0, disc)});
+      grid.sizes[1].places.push_back({disc.y_mm + side * disc.radius_mm, rimSize(grading, 1, disc)});
     }
   for (const FineZone& zone : zones)
     for (const int d : {0, 1}) grid.sizes[d].places.push_back({zone.centre_mm(d), zone.size_mm(d), zone.half_mm(d)});
@@ -239,6 +240,13 @@ private:
   bool changed_ = false, failed_ = false;
 };
 
+/// Sides of a load area, no shorter than some depths of the uppermost electrodes: finer stresses decay above them.
+Eigen::Vector2d effectiveSides(const SensorDesign& design) {
+  const Rectangle area = design.areaRectangle(0);
+  const double depth = design.block_mm.z() - design.upperElectrodes_mm().row(2).maxCoeff();
+  return (area.high_mm - area.low_mm).cwiseMax(leastSideInDepths * depth);
+}
+
 void requireElements(const Grid& grid) {
   if (6 * grid.cells() > mostElements)
     throw DesignError("mesh: " + gotExpected(6 * grid.cells(), " elements", "up to 1e6; choose a larger mesh size"));
@@ -247,18 +255,19 @@ void requireElements(const Grid& grid) {
 } // namespace
 
 Grading defaultGrading(const SensorDesign& design, double size_mm) {
-  const Rectangle area = design.areaRectangle(0);
-  const double side = (area.high_mm - area.low_mm).minCoeff(), height = design.block_mm.z();
+  const Eigen::Vector2d sides = effectiveSides(design);
+  const double height = design.block_mm.z(), shortest = sides.minCoeff();
   // Stresses at the surface die out over the block's height or half an area, whichever is less.
-  const double reach = std::min(height, side / 2);
-  const double factor = size_mm / standardSize(design);
+  const Eigen::Vector2d reach = (sides / 2).cwiseMin(height);
+  const double least = reach.minCoeff(), factor = size_mm / standardSize(design);
   Grading g;
-  g.bulk_mm = factor * 0.4 * side;
+  // The cells need not be narrow along the long side of narrow areas.
+  g.bulk_mm = factor * 0.4 * (sides / 2).cwiseMin(2 * height).cwiseMax(shortest);
   g.border_mm = factor * 0.15 * reach;
   g.edge_mm = factor * 0.25 * reach;
-  g.top_mm = factor * 0.1 * reach;
-  g.bottom_mm = factor * 0.15 * reach;
-  g.vertical_mm = factor * 0.4 * std::min(height, 2 * reach + height / 10);
+  g.top_mm = factor * 0.1 * least;
+  g.bottom_mm = factor * 0.15 * least;
+  g.vertical_mm = factor * 0.4 * std::min(height, 2 * least + height / 10);
   if (finerForField(design)) {
     g.edge_mm *= finerByFactor;
     g.bottom_mm *= finerByFactor;
@@ -271,8 +280,7 @@ Grading defaultGrading(const SensorDesign& design, double size_mm) {
 }
 
 double standardSize(const SensorDesign& design) {
-  const Rectangle area = design.areaRectangle(0);
-  return 0.4 * (area.high_mm - area.low_mm).minCoeff();
+  return 0.4 * effectiveSides(design).minCoeff();
 }
 
 Grading gradingFor(const SensorDesign& design, const MeshOptions& options, std::vector<FineZone>& zones) {

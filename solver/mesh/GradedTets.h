@@ -11,13 +11,13 @@ namespace palp {
 
 /// Sizes of the graded mesh of the block.
 struct Grading {
-  double bulk_mm = 4;      ///< largest size, horizontally
-  double border_mm = 0.75; ///< across the borders of the load areas
-  double edge_mm = 1.25;   ///< across the free edges, and so across the clamped ones
-  double bottom_mm = 0.75; ///< vertically at the clamped face
-  double top_mm = 0.5;     ///< vertically at the loaded face
-  double vertical_mm = 2;  ///< largest size, vertically
-  double growth = 0.5;     ///< of the size with the distance
+  Eigen::Vector2d bulk_mm{4, 4};         ///< largest sizes along x and y
+  Eigen::Vector2d border_mm{0.75, 0.75}; ///< across the borders of the load areas
+  Eigen::Vector2d edge_mm{1.25, 1.25};   ///< across the free edges, and so across the clamped ones
+  double bottom_mm = 0.75;               ///< vertically at the clamped face
+  double top_mm = 0.5;                   ///< vertically at the loaded face
+  double vertical_mm = 2;                ///< largest size, vertically
+  double growth = 0.5;                   ///< of the size with the distance
 };
 
 /// The grading for a size in the bulk; the other sizes follow from the block and its areas.

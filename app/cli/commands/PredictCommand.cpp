@@ -1,3 +1,4 @@
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/NoiseBound.h"
@@ -6,6 +7,7 @@
 #include "io/AtomicFile.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
+#include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
@@ -157,6 +159,7 @@ void printBound(const std::string& who, const ErrorsOverBounds& over) {
 std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorDesign& design, const SampleSet& samples,
                                                                    const Decoder& decoder, const Prediction& prediction,
                                                                    double noise, Session& session) {
+  sayMeshCost(design, meshForTouches(design, touchesOf(design), {}), session);
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();

@@ -47,6 +47,12 @@ std::string commandLine(const ReportArguments& arguments) {
          arguments.touches.asCommand() + " -o " + arguments.folder.string();
 }
 
+/// The mesh that most of its work is done on.
+MeshOptions meshOf(const ReportRequest& request, const std::string& kind) {
+  if (kind != "map" && !request.touches) return request.mesh;
+  return meshForTouches(request.design, request.touches ? *request.touches : touchesOf(request.design), request.mesh);
+}
+
 Exit run(ReportArguments& arguments, Session& session) {
   if (arguments.folder.empty()) arguments.folder = "palp-report-" + arguments.kind;
   const OutputFolder folder(arguments.folder, arguments.force);
@@ -58,7 +64,6 @@ Exit run(ReportArguments& arguments, Session& session) {
   if (request.design.field() != nullptr) requireSmoothAtRest(request.design); // before a word about charts
   request.folder = arguments.folder;
   request.mesh = arguments.mesh.options();
-  sayMeshCost(request.design, request.mesh, session); // refuses as well: some kinds mesh late
   request.perArea = wholeNumber("--per-area", arguments.perArea, 5, 100000);
   request.seed = static_cast<std::uint64_t>(wholeNumber("--seed", arguments.seed, 0, 1'000'000));
   if (arguments.touches.given()) {
@@ -66,6 +71,7 @@ Exit run(ReportArguments& arguments, Session& session) {
       throw UsageError("--touch: not for report " + arguments.kind + "; expected report map or layout");
     request.touches = arguments.touches.range(request.design);
   }
+  sayMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
   request.threads = session.threads;
   request.command = commandLine(arguments);
   request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();

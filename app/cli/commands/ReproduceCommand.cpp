@@ -1,4 +1,5 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/cli/ProgressBar.h"
@@ -85,6 +86,7 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   const OutputFolder folder(arguments.folder, arguments.force);
 
   const SensorDesign design = paperDesign();
+  sayMeshCost(design, options.mesh, session);
   ProgressBar bar("reproduce", 1000);
   const auto result = runPaperProtocol(
       design, figures(arguments.what), options,

@@ -59,8 +59,8 @@ Exit run(const SampleArguments& arguments, Session& session) {
   const SensorDesign design = designOption(arguments.design);
   arguments.output.requireWritable();
   const SampleRequest wanted = request(arguments, design, session);
-  if (!wanted.touches) sayMeshCost(design, wanted.mesh, session);
   SampleGenerator generator(design, wanted);
+  sayMeshCost(design, generator.meshing(), session);
   const SampleRange range = shardOption(arguments.shardText, generator.total());
   SampleSet head = generator.emptySet(session.stop);
   if (session.stop.stop_requested()) { // before there is a head to write

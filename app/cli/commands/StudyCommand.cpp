@@ -1,14 +1,18 @@
 #include "app/cli/Cli.h"
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/Options.h"
 #include "app/cli/Pictures.h"
 #include "app/cli/ProgressBar.h"
 #include "app/cli/ShardOption.h"
 #include "app/study/studies/StudyReport.h"
 #include "io/DesignFile.h"
+#include "model/base/Error.h"
+#include "solver/MeshCost.h"
 
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace palp {
 
@@ -22,6 +26,25 @@ struct StudyArguments {
 
 constexpr std::size_t kProgressSteps = 10'000;
 
+/// Of the designs that are not done yet, the one whose mesh is the largest.
+void sayLargestMesh(const StudyFolder& study, const SampleRange& range, Session& session) {
+  const MeshOptions options{.meshSize_mm = study.plan().meshSize_mm, .mapped = study.plan().mapped};
+  std::optional<std::size_t> largest;
+  double most = 0;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    if (study.done(i)) continue;
+    try {
+      const double elements = meshCost(study.plan().at(i), options).elements;
+      if (elements <= most) continue;
+      most = elements;
+      largest = i;
+    } catch (const Error&) { // a row of its own says why
+      continue;
+    }
+  }
+  if (largest) sayMeshCost(study.plan().at(*largest), options, session, "design " + std::to_string(*largest) + ": ");
+}
+
 Exit run(const StudyArguments& arguments, Session& session) {
   const auto start = std::chrono::steady_clock::now();
   requireNoStream("--output", arguments.folder);
@@ -32,6 +55,7 @@ Exit run(const StudyArguments& arguments, Session& session) {
     session.warnings.push_back(arguments.folder.string() + ": " + mixed);
     std::cerr << "palp study: " << session.warnings.back() << '\n';
   }
+  sayLargestMesh(study, range, session);
   ProgressBar bar("study", kProgressSteps);
   const bool whole = study.compute(
       range.first, range.last, session.threads,

@@ -1,6 +1,8 @@
+#include "app/cli/MeshCostLine.h"
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/DecoderTraining.h"
+#include "app/study/decoding/KnownTouches.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/Prediction.h"
 #include "io/DecoderFile.h"
@@ -65,6 +67,8 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   const SampleSet samples = loadSamples(arguments.samples, session.stop);
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
+  if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
+    sayMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,

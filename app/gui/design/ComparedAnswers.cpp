@@ -5,6 +5,7 @@
 #include "app/gui/jobs/MatchedLoad.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Error.h"
+#include "solver/MeshCost.h"
 
 #include <QObject>
 
@@ -43,6 +44,15 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const SensorDe
   return answer;
 }
 
+/// Empty where there is no such mesh; the answer says why.
+std::string costOf(const SensorDesign& design, const DesignsCompared& compared, const MeshOptions& mesh) {
+  try {
+    return costInBrief(meshCost(design, meshFor(design, matchedLoad(compared.load, compared.now, design), mesh)));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 QString answerWords(const Answer& earlier, const Answer& now, const DesignsCompared& compared) {
   for (const auto& [answer, name] :
        {std::pair{&earlier, QObject::tr("The earlier design")}, std::pair{&now, QObject::tr("This design")}})
@@ -67,10 +77,11 @@ QString answerWords(const Answer& earlier, const Answer& now, const DesignsCompa
 
 bool compareDesigns(DesignsCompared& compared, const MeshOptions& mesh, const ReportProgress& progress,
                     const std::stop_token& stop) {
-  progress(0.01, QObject::tr("this design under the load").toStdString());
+  progress(0.01, QObject::tr("this design under the load").toStdString() + costOf(compared.now, compared, mesh));
   const Answer now = answerOf(compared.now, compared.load, compared.now, mesh, stop);
   if (stop.stop_requested()) return false;
-  progress(0.05, QObject::tr("the earlier design under the load").toStdString());
+  progress(0.05,
+           QObject::tr("the earlier design under the load").toStdString() + costOf(compared.earlier, compared, mesh));
   const Answer earlier = answerOf(compared.earlier, compared.load, compared.now, mesh, stop);
   const bool atRest =
       compared.earlier.field() != nullptr || compared.now.field() != nullptr; // where the field is known

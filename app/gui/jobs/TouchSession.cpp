@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/TouchResistances.h"
 #include "solver/DiscretisationError.h"
+#include "solver/MeshCost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,12 +122,16 @@ void TouchSession::run() {
   computed_ = revision_;
   const auto work = [this, touch = wanted_, target = target(), revision = revision_,
                      trace = trace_](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
-    progress.set(-1, "Meshing");
+    const std::string cost =
+        touch.mesh()
+            ? ""
+            : costInBrief(meshCost(touch.design(), meshFor(touch.design(), touch.load(), touch.meshOptions())));
+    progress.set(-1, "Meshing" + cost);
     touch.advance(std::min(target, Stage::Mesh), {}, {.step = {}, .stop = stop});
     if (stop.stop_requested()) return {};
     std::shared_ptr<const NodalFields> fields;
     if (target > Stage::Mesh) {
-      progress.set(-1, "Solving");
+      progress.set(-1, "Solving" + cost);
       touch.advance(Stage::Solution, {.oneTangent = true},
                     {[&, loads = 1 + static_cast<double>(touch.path().size())](const NewtonStep& step) {
                        trace->add(step);

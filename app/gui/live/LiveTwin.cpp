@@ -4,6 +4,7 @@
 #include "app/gui/views/BlockView.h"
 #include "model/base/Error.h"
 #include "solver/ConductionField.h"
+#include "solver/MeshCost.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -118,7 +119,8 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
   }
   const auto work = [this, touch = std::move(start), field,
                      measured](const std::stop_token& stop, JobProgress& progress) mutable -> JobRunner::Taking {
-    progress.set(-1, "Solving the model view");
+    const auto meshed = [&touch] { return meshFor(touch.design(), touch.load(), touch.meshOptions()); };
+    progress.set(-1, "Solving the model view" + (touch.mesh() ? "" : costInBrief(meshCost(touch.design(), meshed()))));
     if (!touch.advance(Stage::Solution, {}, {{}, stop}) && !stop.stop_requested())
       throw Error("the model did not converge under this force; the last result is kept");
     if (stop.stop_requested()) return {};

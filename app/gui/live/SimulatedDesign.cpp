@@ -5,6 +5,7 @@
 #include "app/study/touch/SampleGenerator.h"
 #include "app/study/touch/Touch.h"
 #include "model/base/Cancelled.h"
+#include "solver/MeshCost.h"
 
 #include <algorithm>
 
@@ -68,7 +69,7 @@ SampleSet solvedSamples(const SensorDesign& design, const MeshOptions& mesh, boo
   if (moving) request.touches = movingTouches(design);
   request.mesh = mesh;
   SampleGenerator generator(design, request);
-  progress.set(-1, "Meshing the simulated design");
+  progress.set(-1, "Meshing the simulated design" + costInBrief(meshCost(design, generator.meshing())));
   SampleSet samples = generator.emptySet(stop);
   if (stop.stop_requested()) throw Cancelled();
   const auto total = static_cast<double>(generator.total());

@@ -23,13 +23,6 @@ namespace {
 
 constexpr double kLeastPressesInRange = 6e6;
 
-/// A finer mesh leaves less at any number of samples, for about a minute more of CPU: whoever learns from few, as a
-/// simulated board does, waits for that and not for the samples.
-MeshOptions meshOf(const SensorDesign& design, Eigen::Index samples) {
-  const TouchRange touches = touchesOf(design);
-  return samples < manyTouchSamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});
-}
-
 Eigen::MatrixXd restOf(const SensorDesign& design) {
   if (const FieldLaw* law = design.field())
     return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
@@ -63,6 +56,13 @@ double leastPress_N(const ForceRange& range) {
   return (range.high_N - range.low_N).maxCoeff() / kLeastPressesInRange;
 }
 
+/// A finer mesh leaves less at any number of samples, for about a minute more of CPU: whoever learns from few, as a
+/// simulated board does, waits for that and not for the samples.
+MeshOptions meshOfKnownTouches(const SensorDesign& design, Eigen::Index samples) {
+  const TouchRange touches = touchesOf(design);
+  return samples < manyTouchSamples ? meshForTouches(design, touches, {}) : meshToLearnFrom(design, touches, {});
+}
+
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop,
                             const std::function<void(double share, const std::string& what)>& progress) {
@@ -81,7 +81,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
   const std::vector<Eigen::Index> used = readingsOf(input);
   readings.gradient_per_mm = Eigen::MatrixXd(readings.gradient_per_mm(used, Eigen::all));
   say(0.02, "a mesh of the block");
-  const HyperelasticProblem problem(design, sensorMesh(design, meshOf(design, samples.size()), stop));
+  const HyperelasticProblem problem(design, sensorMesh(design, meshOfKnownTouches(design, samples.size()), stop));
   say(0.04, "its factorisation");
   if (problem.findFactor(threads, stop) == 0) throw Cancelled();
   std::size_t done = 0;

@@ -4,6 +4,7 @@
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
 #include "nn/rivals/KernelInversion.h"
+#include "solver/SensorMesh.h"
 
 #include <functional>
 #include <stop_token>
@@ -21,6 +22,9 @@ using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& cause
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop,
                             const std::function<void(double share, const std::string& what)>& progress = {});
+
+/// The mesh of the block that they take.
+MeshOptions meshOfKnownTouches(const SensorDesign& design, Eigen::Index samples);
 
 /// Mirrors that the design has and these touches (causes as above, a column each) can be reflected by: not where the
 /// decoder reads a row-wire without its image, or a force or place that never varies would become another.

@@ -114,19 +114,26 @@ LoadCase SampleGenerator::load(std::size_t i) const {
   return load;
 }
 
+MeshOptions SampleGenerator::meshOf(const Part& part) const {
+  if (!part.touches) return request_.mesh;
+  return part.touches->atOnce == 1 ? meshForPart(design_, *part.touches, request_.mesh)
+                                   : meshForTouches(design_, *part.touches, request_.mesh);
+}
+
+MeshOptions SampleGenerator::meshing() {
+  split();
+  return meshOf(parts_.front());
+}
+
 bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
-  MeshOptions options = request_.mesh;
+  const MeshOptions options = meshOf(part);
   const int beside = partsBeside(static_cast<std::size_t>(&part - parts_.data()));
   BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / beside};
   batch.checkFirst = checked;
   batch.leaveOut = request_.touches.has_value();
-  if (part.touches) {
-    options = part.touches->atOnce == 1 ? meshForPart(design_, *part.touches, options)
-                                        : meshForTouches(design_, *part.touches, options);
-    if (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane)
-      batch.touched = touchedByTouches(design_, *part.touches, options);
-  }
+  if (part.touches && (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane))
+    batch.touched = touchedByTouches(design_, *part.touches, options);
   Mesh mesh;
   try {
     mesh = part.stages.measure("mesh", [&] { return sensorMesh(design_, options, stop); });
@@ -141,17 +148,20 @@ bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& s
   return true;
 }
 
+void SampleGenerator::split() {
+  if (!parts_.empty()) return;
+  if (request_.touches && request_.touches->atOnce == 1) {
+    for (const TouchRange& part : partsOfTouches(design_, solved_, request_.mesh, &cuts_))
+      parts_.emplace_back().touches = part;
+  } else { // two touches at once lie in no part alone
+    parts_.resize(1);
+    parts_.front().touches = request_.touches;
+  }
+}
+
 /// All that the head of the file says; touches' meshes are made when they are needed.
 bool SampleGenerator::prepare(const std::stop_token& stop) {
-  if (parts_.empty()) {
-    if (request_.touches && request_.touches->atOnce == 1) {
-      for (const TouchRange& part : partsOfTouches(design_, solved_, request_.mesh, &cuts_))
-        parts_.emplace_back().touches = part;
-    } else { // two touches at once lie in no part alone
-      parts_.resize(1);
-      parts_.front().touches = request_.touches;
-    }
-  }
+  split();
   if (parts_.size() > 1) {
     const MeshOptions mesh = meshForPart(design_, *parts_.front().touches, request_.mesh);
     requireMeshable(design_, mesh);

@@ -54,6 +54,8 @@ public:
   SampleGenerator(SensorDesign design, SampleRequest request);
 
   [[nodiscard]] std::size_t total() const;
+  /// The mesh that its samples need; of touches that are solved in parts that of the first one. For its cost.
+  [[nodiscard]] MeshOptions meshing();
   /// The load of sample i; a pure function of the request and i, but where a touch was drawn anew.
   [[nodiscard]] LoadCase load(std::size_t i) const;
 
@@ -102,6 +104,8 @@ private:
 
     void giveBack(); ///< its memory; made again where it is needed again
   };
+  void split();
+  [[nodiscard]] MeshOptions meshOf(const Part& part) const;
   /// False: stopped.
   bool prepare(const std::stop_token& stop = {});
   bool prepare(Part& part, bool checked, const std::stop_token& stop);

@@ -1,7 +1,11 @@
 #include "solver/HyperelasticProblem.h"
 #include "solver/SensorMesh.h"
+#include "solver/contact/ContactPoints.h"
+#include "solver/contact/ContactSteps.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace palp {
 namespace {
@@ -68,6 +72,68 @@ TEST(ContactOfFewNodes, FrictionHoldsASphereOnTwoNodes) {
       EXPECT_LT(increment.indenters[0].translation_mm.head<2>().norm(), 0.5);
     }
   }
+}
+
+/// A block of the paper's rubber that a sharp punch fills to a quarter.
+SensorDesign smallBlock() {
+  SensorDesign design = paperDesign();
+  design.block_mm = {12, 12, 5};
+  design.areas = {1, 1};
+  design.upper = {{4, 8}, {{4, 8}}, {{4}}};
+  design.lower = {{3, 6}, {{6}}, {{1}}};
+  return design;
+}
+
+Solution pressed(const SensorDesign& design, const Indenter& indenter, int cells) {
+  MeshOptions options;
+  options.mapped = {{cells, cells, 3}};
+  LoadCase load;
+  load.indenters = {indenter};
+  return HyperelasticProblem(design, sensorMesh(design, options)).solve(load);
+}
+
+int stepsBegun(const Solution& solution) {
+  return static_cast<int>(std::count_if(solution.newton.begin(), solution.newton.end(),
+                                        [](const NewtonStep& step) { return step.iteration == 0; }));
+}
+
+/// The pressure at its rim has no limit: the finer the mesh, the less of the load is reached.
+TEST(ContactWithoutAnEnd, ASharpPunchEndsAfterSomeStepsWithTheShareReachedAndTheRim) {
+  for (const double rim_mm : {0., 0.01}) {
+    const Solution solution =
+        pressed(smallBlock(), {IndenterShape::Flat, 3, rim_mm, {6, 6}, 0, Motion{2.5, {0, 0}}}, 12);
+    ASSERT_FALSE(solution.converged) << rim_mm;
+    EXPECT_LT(solution.reachedLoadFraction, 1);
+    EXPECT_LT(stepsBegun(solution), 40) << "not down to a thousandth of the load";
+    EXPECT_NE(solution.stopReason.find("between load fractions"), std::string::npos) << solution.stopReason;
+    EXPECT_NE(solution.stopReason.find("the rim radius of "), std::string::npos) << solution.stopReason;
+  }
+}
+
+/// Both refused before: "meets no node of the mesh".
+TEST(ContactWithoutAnEnd, ABallDeeperThanItsDiameterEndsWithItsRadius) {
+  for (const Indenter& ball : {Indenter{IndenterShape::Sphere, 1, 0, {6, 6}, 0, Motion{1.9, {0, 0}}},
+                               Indenter{IndenterShape::Sphere, 0.8, 0, {6, 6}, 0, Press{{0, 0, -20}}}}) {
+    const Solution solution = pressed(smallBlock(), ball, 24);
+    EXPECT_LT(stepsBegun(solution), 40);
+    if (solution.converged) continue;
+    EXPECT_NE(solution.stopReason.find("deeper than its radius"), std::string::npos) << solution.stopReason;
+  }
+}
+
+TEST(TouchablePoints, OfABallBelowTheFaceAreThoseItPassedOnItsWay) {
+  const SensorDesign design = smallBlock();
+  MeshOptions options;
+  options.mapped = {{24, 24, 1}};
+  const Mesh mesh = sensorMesh(design, options);
+  const auto count = [&](double depth_mm, double margin) {
+    LoadCase load;
+    load.indenters = {{IndenterShape::Sphere, 1.1, 0, {6, 6}, 0, Motion{depth_mm, {0, 0}}}};
+    return touchablePoints(mesh, design, {load}, margin).size();
+  };
+  EXPECT_EQ(count(1.1, 1), 13U) << "as wide as the ball";
+  EXPECT_EQ(count(2.1, touchableMargin), 13U);
+  EXPECT_EQ(count(0.8, touchableMargin * widerMargin), 13U);
 }
 
 const Motion kAMillimetreDeep{1, {0, 0}}, kSlidByAMillimetre{0.6, {1, 0}};

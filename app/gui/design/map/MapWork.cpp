@@ -4,6 +4,7 @@
 #include "model/DesignError.h"
 #include "model/TouchRange.h"
 #include "model/base/NumberText.h"
+#include "solver/MeshCost.h"
 
 #include <algorithm>
 #include <cctype>
@@ -109,7 +110,7 @@ MapFound mapResolution(const SensorDesign& design, const MeshOptions& mesh, cons
   } else {
     progress(0, "readings at rest");
     const LinearReadings readings = readingsAtRest(mapped, 0, stop);
-    progress(0.2, "mesh and factorisation");
+    progress(0.2, "mesh and factorisation" + costInBrief(meshCost(mapped, meshing)));
     const HyperelasticProblem problem(mapped, sensorMesh(mapped, meshing, stop));
     if (problem.findFactor(0, stop) == 0) return {};
     progress(0.4, "influence surfaces");

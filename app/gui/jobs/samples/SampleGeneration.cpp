@@ -2,6 +2,7 @@
 
 #include "app/study/paper/PaperProtocol.h"
 #include "app/study/touch/SampleGenerator.h"
+#include "solver/MeshCost.h"
 
 #include <algorithm>
 #include <utility>
@@ -44,6 +45,7 @@ bool SampleGeneration::make(StageLog& stages, const std::stop_token& stop, JobPr
   }
   request.mesh = mesh_;
   SampleGenerator generator(design_, request); // both sets need one preparation
+  progress.set(-1, "Meshing and preparing the solver" + costInBrief(meshCost(design_, generator.meshing())));
   bool fits = false;
   generator.whileFitting([&](std::size_t done, std::size_t all) {
     if (!std::exchange(fits, true)) fitsBegun_s_ = now_s();
