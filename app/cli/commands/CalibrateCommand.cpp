@@ -163,10 +163,9 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
       session.stages.measure("train", [&] { return calibrate(decoder, frames, session.stop); });
   const CalibrationReport& report = calibration.report;
   const double age_days = ageInDays(arguments.frames);
-  if (!report.improved)
-    session.warnings.emplace_back("on frames that it has not seen, the refined network is no better than the old one");
-  if (report.place && !report.place->improved)
-    session.warnings.emplace_back("its places are no better on frames that it has not seen");
+  session.warnings = warningsOf(report);
+  if (!report.opposed.empty() && !arguments.output.force)
+    throw Error(arguments.frames + ": " + session.warnings.front() + " (no network was written; --force writes it)");
   if (decoder.place && !report.place)
     session.warnings.emplace_back("the frames have no places: those of the network stay as they are (palp listen "
                                   "--label @X,Y:FX,FY,FZ, or palp import)");
