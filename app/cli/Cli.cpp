@@ -3,6 +3,7 @@
 #include "app/cli/Interrupt.h"
 #include "app/cli/Unexpected.h"
 #include "app/study/Blas.h"
+#include "app/study/Failure.h"
 #include "app/study/Resources.h"
 #include "app/study/Version.h"
 #include "app/study/reports/ProcessMemory.h"
@@ -17,6 +18,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -123,6 +125,9 @@ Exit Cli::runChosen() {
     exit = Exit::NoResult;
   } catch (const Error& refused) {
     std::cerr << "palp " << name << ": " << oneLine(refused.what()) << '\n';
+    return Exit::BadInput;
+  } catch (const std::filesystem::filesystem_error&) { // a folder that may not be read, a name too long
+    std::cerr << "palp " << name << ": " << oneLine(failureInWords(std::current_exception())) << '\n';
     return Exit::BadInput;
   } catch (const Cancelled&) { // where a command had nothing of its own to say
     std::cerr << "palp " << name << ": stopped before there was a result\n";

@@ -3,6 +3,7 @@
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
+#include <filesystem>
 #include <new>
 
 namespace palp {
@@ -14,6 +15,8 @@ std::string failureInWords(const std::exception_ptr& failure) {
     return refused.what();
   } catch (const Cancelled& cancelled) {
     return cancelled.what();
+  } catch (const std::filesystem::filesystem_error& refused) { // a folder that may not be read, a name too long
+    return refused.path1().string() + ": " + refused.code().message();
   } catch (const std::bad_alloc&) {
     return "not enough memory";
   } catch (const std::exception& mistake) {
