@@ -1,5 +1,6 @@
 #include "solver/field/DeformedGreen.h"
 
+#include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "model/FieldSensitivity.h"
 #include "solver/SensorMesh.h"
@@ -165,6 +166,14 @@ TEST_P(DeformedGreenOf, ASmallBendingChangesResistancesAsHadamardsTermSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DeformedGreenOf, testing::Values(1U, 7U, 23U));
+
+TEST(DeformedGreen, NamesAnElectrodeThatNoElementHolds) {
+  const Block block(3);
+  FieldState state = block.moved(Eigen::Matrix3d::Identity());
+  EXPECT_TRUE((block.green->conductivities(state).array() > 0).all());
+  state.nodes_mm.setZero(); // elements without a size: no coordinates in them are numbers
+  EXPECT_THROW((void)block.green->conductivities(state), DesignError);
+}
 
 TEST(DeformedGreen, StopsWhereItIsAsked) {
   const Block block(3);
