@@ -59,6 +59,7 @@ NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vecto
     if (range(k) > 0) varied.push_back(k);
   const auto outputs = static_cast<Eigen::Index>(varied.size());
   const NoiseBound unknown{Eigen::VectorXd::Constant(range.size(), NAN), Eigen::VectorXd::Constant(range.size(), NAN)};
+  if (varied.empty()) return unknown;
   Eigen::ArrayXd without = Eigen::ArrayXd::Zero(outputs), with = without;
   for (int c = 0; c < classes; ++c) {
     std::vector<Eigen::Index> members;

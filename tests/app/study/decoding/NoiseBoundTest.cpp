@@ -109,6 +109,8 @@ TEST(NoiseBound, OfAForceAloneIsThatOfASensorOfThisForce) {
   const std::string words = inWords(bound);
   EXPECT_TRUE(words.starts_with("without prior - - ")) << words;
   EXPECT_TRUE(words.ends_with("does not vary in the samples")) << words;
+  set.forces_N.setZero();
+  EXPECT_TRUE(noiseBound(set, InputKind::Resistance, {0}, 1e-4).withPriorPercent.array().isNaN().all());
 }
 
 TEST(NoiseBound, WithoutLimitSaysSo) {
