@@ -60,7 +60,7 @@ TEST(NetworkFile, WithANumberThatIsNotFiniteIsNotWritten) {
   Decoder decoder = smallDecoder(DecoderKind::Linear);
   decoder.report.condition = std::numeric_limits<double>::infinity(); // may be: it is written as null and read back
   EXPECT_EQ(parseNetwork(networkText(decoder), "net.json").report.condition, decoder.report.condition);
-  decoder.report.leaveOneOut(0) = std::numeric_limits<double>::quiet_NaN();
+  decoder.report.leaveOneOut = Eigen::VectorXd::Constant(3, std::numeric_limits<double>::quiet_NaN());
   try {
     static_cast<void>(networkText(decoder));
     ADD_FAILURE() << "written, and no reader takes it";
