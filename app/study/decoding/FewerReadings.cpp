@@ -2,6 +2,7 @@
 
 #include "io/Decoder.h"
 #include "model/base/PositiveSolve.h"
+#include "nn/NetworkError.h"
 
 #include <algorithm>
 #include <cmath>
