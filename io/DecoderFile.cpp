@@ -4,6 +4,8 @@
 #include "io/StrictJson.h"
 #include "io/decoder/DecoderJson.h"
 #include "model/base/Error.h"
+#include "model/base/NumberText.h"
+#include "nn/NetworkError.h"
 
 #include <cmath>
 #include <limits>
@@ -12,6 +14,17 @@ namespace palp {
 namespace {
 
 constexpr int kNewestNetwork = 1;
+
+/// Throws NetworkError where a number is not finite, which JSON would make null and no reader takes.
+void requireFinite(const OrderedJson& json, const std::string& key) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>()))
+    throw NetworkError("the network's " + key + " is " + text(json.get<double>()) +
+                       ", which cannot be written; train with more samples, or a ridge");
+  if (json.is_object())
+    for (const auto& [part, value] : json.items()) requireFinite(value, key.empty() ? part : key + "." + part);
+  if (json.is_array())
+    for (const OrderedJson& value : json) requireFinite(value, key);
+}
 
 OrderedJson inputJson(const DecoderInput& input) {
   return {{"kind", name(input.kind)},    {"rows", input.rows},
@@ -186,6 +199,7 @@ std::string networkText(const Decoder& decoder) {
   json["model"] = modelJson(decoder);
   json["area_of_class"] = decoder.areaOfClass;
   json["areas"] = decoder.areas ? toJson(*decoder.areas) : OrderedJson();
+  requireFinite(json, "");
   return jsonText(json) + "\n";
 }
 

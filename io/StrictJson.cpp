@@ -77,7 +77,7 @@ Json parseJson(std::string_view content, const std::string& file) {
 }
 
 void JsonPlace::refuse(const std::string& allowed) const {
-  std::string value = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string value = jsonText(*value_);
   if (value.size() > kLongestShownValue) value = value.substr(0, kLongestShownValue) + "...";
   throw Error(file_ + ": " + (key_.empty() ? "" : key_ + ": ") + gotExpected(value, allowed));
 }

@@ -149,7 +149,7 @@ SensorDesign StudyPlan::at(std::size_t i) const {
   Json varied = Json::parse(design);
   const std::vector<std::string> chosen = values(i);
   for (std::size_t a = 0; a < axes.size(); ++a) *entryAt(varied, axes[a].key) = Json::parse(chosen[a]);
-  return parseDesign(varied.dump(), "design " + std::to_string(i));
+  return parseDesign(jsonText(varied), "design " + std::to_string(i));
 }
 
 StudyPlan loadStudy(const std::filesystem::path& path) {
@@ -164,7 +164,7 @@ StudyPlan parseStudy(const std::string& content, const std::string& name, const 
                 {"latin_hypercube", "seed", "noise", "decoders", "per_area", "mesh_size_mm", "mapped", "program"});
   StudyPlan plan;
   Json design = designOf(root.at("design"), folder);
-  plan.design = design.dump();
+  plan.design = jsonText(design);
   if (root.has("latin_hypercube") && !root.at("latin_hypercube").isNull())
     plan.hypercube = root.at("latin_hypercube").integer(2, static_cast<int>(kMostDesigns));
   double designs = 1;

@@ -1,5 +1,6 @@
 """The layers and doors of Palp: fails on an include that a folder may not have, on an include of what is private to
-another folder, on a package's header in more than one source, and on a folder with too many sources at its root.
+another folder, on a package's header in more than one source, on a folder with too many sources at its root, and on a
+call that hides a failure.
 
 Used by CTest: python3 tests/check_layers.py ROOT
 """
@@ -52,6 +53,23 @@ PACKAGES = {
 }
 ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h", r"hdf5\.h", r"lo/lo\.h", r"zmq\.h", r"zlib\.h",
                    r"minizip/.*"]
+# Calls that go on where they have failed, or throw when all is done; what to use instead; who may make them.
+CALLS = [
+    (r"\.(?:llt|ldlt)\(\)|\bL(?:L|DL)T<[^;]*> \w+[({](?!const )",
+     "goes on where the matrix is not positive definite: use positiveFactor, semidefiniteFactor or solvePositive",
+     {"model/base/PositiveSolve.h", "nn/linear/RidgeFit.cpp"}),  # the latter checks its result
+    (r"\.dump\((?![^;]*error_handler)|->dump\((?![^;]*error_handler)",
+     "throws where a text is not UTF-8, as a file's name may be: use jsonText",
+     {"app/study/cluster/ClusterJob.cpp", "io/StrictJson.h"}),  # which asks whether it is; of what was parsed
+    (r"\bQSaveFile\b|\bofstream\b|\bfopen\(|\bO_CREAT\b|\bWriteOnly\b",
+     "may leave half a file in place of a whole one: use writeFile, AtomicFile or FilesTogether of io",
+     {"io/AtomicFile.cpp", "app/study/live/recordings/RecordingTable.cpp",  # into an AtomicFile
+      "io/SamplePartWriter.cpp", "io/samples/SampleWriter.h",  # .part
+      "io/send/LineOutlet.cpp", "app/gui/window/LogFile.cpp",  # line by line
+      "app/study/ChildProcess.cpp",  # of a scratch folder
+      "app/study/reports/ProcessMemory.cpp",  # /proc
+      "app/gui/widgets/Png.cpp", "app/gui/views/StripChartMouse.cpp"}),  # bytes in memory
+]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
 
@@ -67,7 +85,11 @@ def main(root):
     for source in sorted(set(sources)):
         name = source.relative_to(root).as_posix()
         folder = folder_of(name)
-        for kind, header in INCLUDE.findall(source.read_text()):
+        content = source.read_text()
+        for pattern, words, allowed in CALLS:
+            for call in re.finditer(pattern, content) if name not in allowed else ():
+                problems.append(f"{name}:{content.count(chr(10), 0, call.start()) + 1}: {call.group()} {words}")
+        for kind, header in INCLUDE.findall(content):
             for pattern in ONE_SOURCE_ONLY:
                 if re.fullmatch(pattern, header):
                     holders[pattern].add(name)

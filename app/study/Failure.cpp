@@ -3,6 +3,7 @@
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 
+#include <filesystem>
 #include <new>
 
 namespace palp {

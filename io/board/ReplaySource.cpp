@@ -124,8 +124,12 @@ bool ReplaySource::follow() {
   if (!control_->loop || !(to_s > from_s) || control_->paused) return true;
   const RecordingEntry* next = cursor_.report();
   const bool over = next == nullptr || next->hostTime_s - index_.first_s() > to_s;
+  const std::pair loop{from_s, to_s};
+  if (!over || from_s >= control_->length_s || loop == emptyLoop_) return true;
   const double hostTime_s = index_.first_s() + from_s;
-  if (over && from_s < control_->length_s) goTo(reportAt(hostTime_s), hostTime_s, 0);
+  goTo(reportAt(hostTime_s), hostTime_s, 0);
+  next = cursor_.report();
+  if (next == nullptr || next->hostTime_s - index_.first_s() > to_s) emptyLoop_ = loop;
   return true;
 }
 

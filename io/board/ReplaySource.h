@@ -98,12 +98,13 @@ private:
   ReplayIndex index_;
   ReplayCursor cursor_;
   std::shared_ptr<ReplayControl> control_;
-  std::size_t marks_ = 0;  ///< that the control knows
-  double takenUp_s_ = 0;   ///< host time from which it was read on last
-  std::size_t target_ = 0; ///< reports before the place that was gone to last
-  double target_s_ = 0;    ///< host time of that place
-  double playedTo_s_ = 0;  ///< host time of the recording that is reached
-  double asked_s_ = 0;     ///< host clock when that was
+  std::size_t marks_ = 0;                       ///< that the control knows
+  double takenUp_s_ = 0;                        ///< host time from which it was read on last
+  std::size_t target_ = 0;                      ///< reports before the place that was gone to last
+  double target_s_ = 0;                         ///< host time of that place
+  double playedTo_s_ = 0;                       ///< host time of the recording that is reached
+  double asked_s_ = 0;                          ///< host clock when that was
+  std::pair<double, double> emptyLoop_{-1, -1}; ///< begin and end of a loop that holds no report: it is played on
   bool started_ = false;
   bool jumped_ = false;
   bool ended_ = false;

@@ -139,7 +139,7 @@ ImportMap readImportMap(const std::filesystem::path& path) {
     map.time_s = ImportedColumn{place.at("column").string(), factorOf(place, kDurations, kFactors[3]), 0};
   }
   for (const char* key : {"separator", "time"}) json.erase(key); // two tables of one rig may differ in them
-  map.fingerprint = "measured-" + fingerprint(json.dump());
+  map.fingerprint = "measured-" + fingerprint(jsonText(json));
   return map;
 }
 

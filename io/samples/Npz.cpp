@@ -105,7 +105,8 @@ std::size_t NpyHead::itemBytes() const {
 
 std::uint64_t NpyHead::items() const {
   std::uint64_t count = 1;
-  for (const std::uint64_t size : shape) count *= size;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  for (const std::uint64_t size : shape) count = size > 0 && count > most / size ? most : count * size;
   return count;
 }
 
@@ -245,8 +246,6 @@ void NpzArray::readHead(std::uint64_t size) {
   if (head_.type[0] == '>') refuse(gotExpected("big-endian numbers", "little-endian"));
   if (head_.shape.size() > 1 && valueAfter(text, "fortran_order") != "False")
     refuse(gotExpected("Fortran order", "C order (numpy.ascontiguousarray)"));
-  std::uint64_t left = size - 8 - sizeBytes - length;
-  for (const std::uint64_t count : head_.shape) left = count == 0 ? 0 : left / count; // no overflow
   const std::size_t item = head_.itemBytes();
   if (item == 0 || item > kLongestText_bytes || head_.items() > size ||
       head_.items() * item != size - 8 - sizeBytes - length)

@@ -18,6 +18,7 @@ struct NpyHead {
   std::vector<std::uint64_t> shape;
   /// Bytes of one number or text.
   [[nodiscard]] std::size_t itemBytes() const;
+  /// Product of the shape; the largest number where it is larger than that.
   [[nodiscard]] std::uint64_t items() const;
   [[nodiscard]] bool isText() const { return type.size() > 2 && (type[1] == 'U' || type[1] == 'S'); }
 };

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <set>
 
 namespace palp {
@@ -53,6 +54,19 @@ TEST(NetworkFile, OfAFileWhoseNameIsNotUtf8IsWrittenAllTheSame) {
   Decoder decoder = smallDecoder(DecoderKind::Linear);
   decoder.trainedWith = "palp train m\xe4rz.csv";
   EXPECT_EQ(parseNetwork(networkText(decoder), "net.json").trainedWith, "palp train m\xef\xbf\xbdrz.csv");
+}
+
+TEST(NetworkFile, WithANumberThatIsNotFiniteIsNotWritten) {
+  Decoder decoder = smallDecoder(DecoderKind::Linear);
+  decoder.report.condition = std::numeric_limits<double>::infinity(); // may be: it is written as null and read back
+  EXPECT_EQ(parseNetwork(networkText(decoder), "net.json").report.condition, decoder.report.condition);
+  decoder.report.leaveOneOut = Eigen::VectorXd::Constant(3, std::numeric_limits<double>::quiet_NaN());
+  try {
+    static_cast<void>(networkText(decoder));
+    ADD_FAILURE() << "written, and no reader takes it";
+  } catch (const Error& refused) {
+    EXPECT_NE(std::string(refused.what()).find("fit.leave_one_out_N is nan"), std::string::npos) << refused.what();
+  }
 }
 
 TEST(NetworkFile, KeepsATouchTableInEitherForm) {

@@ -3,6 +3,7 @@
 #include "io/AtomicFile.h"
 #include "io/SampleFile.h"
 #include "io/SamplePartWriter.h"
+#include "io/samples/Npz.h"
 #include "model/base/Cancelled.h"
 #include "tests/app/gui/FullDisk.h"
 #include "tests/io/Refusal.h"
@@ -35,6 +36,18 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Each, SampleArrays, testing::Values(".h5", ".npz"),
                          [](const auto& each) { return std::string(each.param).substr(1); });
+
+TEST(NpzFile, OfMoreNumbersThanCanBeCountedIsRefused) {
+  const TemporaryFolder folder;
+  const std::vector<std::uint64_t> huge(2, std::uint64_t{1} << 40U); // 2^80, of which 64 bits are 0
+  EXPECT_EQ((NpyHead{"<f8", huge}.items()), std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ((NpyHead{"<f8", {huge[0], huge[1], 0}}.items()), 0U);
+  NpzWriter writer(folder / "a.npz");
+  writer.begin("a", "<f8", huge);
+  writer.end();
+  writer.close();
+  expectIn(refusal([&] { NpzArray(folder / "a.npz", "a"); }), {"array a", "other bytes than its head says"});
+}
 
 TEST_P(SampleArrays, ReadBackTheSameNumbers) {
   for (const bool together : {false, true})

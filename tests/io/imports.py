@@ -82,6 +82,14 @@ def frame_of(pad, force_N, ohm):
     return frame
 
 
+def check_dead_reading():
+    pad, force_N, ohm = measured(2)
+    ohm[:, 1, 2] = 1e6
+    frame_of(pad, force_N, ohm).to_csv("dead.csv", index=False)
+    warnings = made("import", "dead.csv", "--map", mapped(), "-o", "dead.h5")["warnings"]
+    assert any("R_r1_c2 (1e+06 ohm) stays the same in all 300 samples" in words for words in warnings), warnings
+
+
 def check_numbers():
     pad, force_N, ohm = measured(2)
     frame_of(pad, force_N, ohm).to_csv("table.csv", index=False)
@@ -243,6 +251,6 @@ def check_broken_maps():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for step in (check_numbers, check_use, check_places, check_broken_tables, check_broken_maps):
+    for step in (check_numbers, check_dead_reading, check_use, check_places, check_broken_tables, check_broken_maps):
         step()
     os.chdir("/")

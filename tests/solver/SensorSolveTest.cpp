@@ -178,6 +178,17 @@ TEST(Sensor, ALoadNearRoundingIsSolvedAsFarAsNumbersGoAndSaysSo) {
   EXPECT_NE(reason.find("round-off level"), std::string::npos) << reason;
 }
 
+TEST(Sensor, ABlockThatIsNotStableAtRestIsADesignWithoutASolution) {
+  SensorDesign design = paperDesign();
+  design.material.c01_MPa = -2 * design.material.c10_MPa;
+  try {
+    (void)coarse(design, 12).solve(onArea(0, 0, 0, -1));
+    ADD_FAILURE() << "solved";
+  } catch (const DesignError& refused) { // no mistake of the program's
+    EXPECT_NE(std::string(refused.what()).find("the block at rest is not stable"), std::string::npos) << refused.what();
+  }
+}
+
 TEST(Sensor, EndsHonestlyWhereTheBlockLosesStability) {
   const HyperelasticProblem problem = coarse(paperDesign(), 12);
   const Eigen::Vector3d force(60, -60, -720); // many times what the sensor is for

@@ -163,10 +163,9 @@ Exit run(const CalibrateArguments& arguments, Session& session) {
       session.stages.measure("train", [&] { return calibrate(decoder, frames, session.stop); });
   const CalibrationReport& report = calibration.report;
   const double age_days = ageInDays(arguments.frames);
-  if (!report.improved)
-    session.warnings.emplace_back("on unseen frames, the refined network does not improve on the old one");
-  if (report.place && !report.place->improved)
-    session.warnings.emplace_back("its positions do not improve on unseen frames");
+  session.warnings = warningsOf(report);
+  if (!report.opposed.empty() && !arguments.output.force)
+    throw Error(arguments.frames + ": " + session.warnings.front() + " (no network was written; --force writes it)");
   if (decoder.place && !report.place)
     session.warnings.emplace_back(
         "the frames have no positions, so the positions of the network are not refined (palp listen "

@@ -13,6 +13,7 @@
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
 #include "io/Fingerprint.h"
+#include "io/StrictJson.h"
 
 #include <iostream>
 #include <memory>
@@ -137,7 +138,7 @@ void takeFrame(Listening& all, const LiveStatus& status, const LiveFrame& live, 
   all.tare.add(live.forces);
   if (all.label && !status.taring) all.label->add(live.forces);
   if (all.session.json) {
-    std::cout << frameJson(live, status.decoderProblem).dump() << '\n';
+    std::cout << jsonText(frameJson(live, status.decoderProblem)) << '\n';
   } else if (!all.arguments.send.takeStandardOutput() && hostClock_s() > line_s + kLineInterval_s) {
     line_s = hostClock_s();
     printFrame(status, live);

@@ -80,10 +80,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, options.input, decoder.input.rows, options.noise);
     session.result["noise_bound"] = boundJson(bound);
-    if (!session.json)
-      std::cout << "bound of the design at this noise, % of range: without prior "
-                << bound.withoutPriorPercent.transpose() << "; with prior " << bound.withPriorPercent.transpose()
-                << '\n';
+    if (!session.json) std::cout << "bound of the design at this noise, % of range: " << inWords(bound) << '\n';
   }
   if (!session.json) print(decoder, session);
   return Exit::Done;

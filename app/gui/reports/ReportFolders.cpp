@@ -1,5 +1,6 @@
 #include "app/gui/reports/ReportFolders.h"
 
+#include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
 #include <QDir>
@@ -167,8 +168,10 @@ void tidyReport(const QString& folder, const QString& messages) {
     QDir().rmdir(folder);
     return;
   }
-  QFile file(place.filePath(kReportMessages));
-  if (file.open(QIODevice::WriteOnly)) file.write(messages.toUtf8());
+  try {
+    writeFile(place.filePath(kReportMessages).toStdString(), messages.toStdString(), true);
+  } catch (const Error&) { // of a full disk, which the report has met before; the window shows them all the same
+  }
 }
 
 } // namespace palp

@@ -212,7 +212,7 @@ void writeJob(const ClusterJob& job) {
   if (!text) {
     Json latin = json(fromLatin1);
     latin["letters"] = kLatin1;
-    text = latin.dump(1);
+    text = jsonText(latin, 1);
   }
   writeFile(job.folder / "job.json", *text + "\n", true);
 }

@@ -24,6 +24,7 @@ constexpr double kBadMismatch = 0.5; // of the change of R
 constexpr double kLoaded = 0.05;     // of the force range: less is rest
 constexpr std::size_t kFewestToJudge = 4;
 constexpr double kSure = 0.9;        // of the area
+constexpr double kOpposed = -0.5;    // correlation of labels and readings about 0: 1 where they agree
 constexpr double kMovedNoise = 2.5;  // times the noise from frame to frame
 constexpr double kMovedRange = 0.01; // of the force range: labels are good to 1 %
 // Prior variance of gain and offset over that of a label: gains within 30 % are expected, labels are good to 1 %.
@@ -180,6 +181,18 @@ std::optional<double> modelMismatch(const Decoder& decoder, const SampleSet& fra
   return shares.empty() ? std::nullopt : std::optional(median(std::move(shares)));
 }
 
+/// Components of which both labels and readings are more than rest, and of opposite signs in nearly all frames.
+std::string opposedComponents(const Scaled& frames) {
+  std::string components;
+  const double rest = kLoaded * std::sqrt(static_cast<double>(frames.said.cols()));
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double said = frames.said.row(axis).norm(), truth = frames.truth.row(axis).norm();
+    if (std::min(said, truth) < rest) continue;
+    if (frames.said.row(axis).dot(frames.truth.row(axis)) < kOpposed * said * truth) components += "xyz"[axis];
+  }
+  return components;
+}
+
 std::string percent(double share) {
   return std::to_string(std::lround(100 * share)) + " %";
 }
@@ -188,6 +201,9 @@ std::string percent(double share) {
 
 std::vector<std::string> warningsOf(const CalibrationReport& report) {
   std::vector<std::string> warnings;
+  for (const char axis : report.opposed)
+    warnings.push_back(std::string("the labels have the opposite sign of F") + axis +
+                       " that the network reads: are their signs right (a push is negative in z)?");
   const double error = report.rmseAfter_percentOfRange.maxCoeff() / 100;
   if (!report.improved) warnings.push_back("on unseen frames it is no better than the previous network");
   if (error > kBadError) warnings.push_back("on unseen frames its error is " + percent(error) + " of the force range");
@@ -250,6 +266,7 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   const std::optional<OutputCorrection> places = refinePlaces(decoder, frames, said.places_mm, report, stop);
 
   report.modelMismatch = modelMismatch(decoder, frames);
+  report.opposed = opposedComponents(scaled);
 
   const OutputCorrection affine =
       ofAll(inUnits(fit(scaled, -1), scale_N), places, decoder.outputs() + (decoder.place ? 2 : 0));

@@ -34,7 +34,8 @@ struct CalibrationReport {
   /// How far the change of R that the network's design gives under each label is from the frame's, as share of the
   /// frame's: median over the frames under load. None without a forward model.
   std::optional<double> modelMismatch;
-  bool improved = false;                 ///< the refined network is better on samples that it has not seen
+  std::string opposed;   ///< components ("z") whose labels have the opposite sign of what the network reads
+  bool improved = false; ///< the refined network is better on samples that it has not seen
   std::optional<PlaceCalibration> place; ///< where both network and frames have places
 };
 

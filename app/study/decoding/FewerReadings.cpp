@@ -1,9 +1,12 @@
 #include "app/study/decoding/FewerReadings.h"
 
 #include "io/Decoder.h"
+#include "model/base/PositiveSolve.h"
+#include "nn/NetworkError.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -13,6 +16,12 @@ constexpr double kRangePrecision = 3;    // 1 / variance of a cause that is unif
 constexpr double kLeastKnown = 1e-9;     // of a component that no present reading tells of
 constexpr double kLeastVariance = 1e-12; // of a component, where there is no noise
 constexpr int kRefinements = 3;
+
+Eigen::LLT<Eigen::MatrixXd> factorOf(const Eigen::MatrixXd& matrix) {
+  auto factor = positiveFactor(matrix);
+  if (!factor) throw NetworkError("the readings that are left do not determine the force with this network");
+  return std::move(*factor);
+}
 
 } // namespace
 
@@ -39,7 +48,7 @@ ImputedReadings imputed(const ForwardModel& model, const LikelihoodEstimate& tou
       model.deviation(readings.present).cwiseInverse().asDiagonal() * slope(readings.present, Eigen::all);
   Eigen::MatrixXd information = weighted.transpose() * weighted;
   information.diagonal() += kRangePrecision * model.causeFactor.cwiseAbs2().cwiseMax(1e-300);
-  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  const Eigen::LLT<Eigen::MatrixXd> factor = factorOf(information);
   const auto missing = static_cast<Eigen::Index>(readings.missing.size());
   const Eigen::Index causes = slope.cols();
   // L^-T is a root of the causes' covariance.
@@ -60,12 +69,12 @@ FewerTouchReadings::FewerTouchReadings(const KernelForwardModel& model, double n
   Eigen::MatrixXd known = seen * square(present_).asDiagonal() * seen.transpose();
   known.diagonal().array() += kLeastKnown;
   const Eigen::Index count = model.components();
-  const Eigen::MatrixXd inverse = known.llt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd inverse = factorOf(known).solve(Eigen::MatrixXd::Identity(count, count));
   toComponents_ = inverse * seen;
   toMissing_ = square(missing_).asDiagonal() * model.projection(Eigen::all, missing_).transpose();
   Eigen::MatrixXd covariance = noise * inverse;
   covariance.diagonal() += (model.deviation.array().square() - noise).cwiseMax(kLeastVariance).matrix();
-  covariance_.compute(covariance);
+  covariance_ = factorOf(covariance);
   precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
 }
 
@@ -106,14 +115,14 @@ KernelEstimate FewerTouchReadings::estimate(const KernelInversion& inversion,
   Eigen::VectorXd scaled = (result.causes - model_.causeOffset).cwiseProduct(model_.causeFactor)(varied_);
   Fit fit = fitAt(scaled, components);
   for (int step = 0; step < kRefinements; ++step) {
-    const Eigen::VectorXd next = scaled + fit.information.llt().solve(fit.uphill);
+    const Eigen::VectorXd next = scaled + factorOf(fit.information).solve(fit.uphill);
     Fit there = fitAt(next, components);
     if (!(there.cost < fit.cost)) break;
     scaled = next;
     fit = std::move(there);
   }
   const Eigen::Index count = scaled.size();
-  const Eigen::MatrixXd covariance = fit.information.llt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd covariance = factorOf(fit.information).solve(Eigen::MatrixXd::Identity(count, count));
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Index cause = varied_[static_cast<std::size_t>(k)];
     const double factor = model_.causeFactor(cause);

@@ -5,6 +5,9 @@
 
 #include <Eigen/Core>
 
+#include <string>
+#include <vector>
+
 namespace palp {
 
 /// Cramer-Rao bound of the force for relative noise of the inputs, area known, as % of the force range: root mean
@@ -18,7 +21,11 @@ struct NoiseBound {
 };
 
 /// From samples: J = d x / d F at each sample by a polynomial fit of the inputs in the forces of its area. NaN where an
-/// area has fewer samples than a linear fit wants: 8 of three forces.
+/// area has fewer samples than a linear fit wants: 8 of three forces. A component that does not vary in the samples is
+/// taken as known, and its own entries are NaN.
 NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vector<int>& rows, double relativeNoise);
+
+/// Both, one number for each component [% of range]; where there is none, why.
+std::string inWords(const NoiseBound& bound);
 
 } // namespace palp

@@ -276,6 +276,14 @@ TEST(BadInput, ARefusedReportLeavesNoFolder) {
   EXPECT_FALSE(std::filesystem::exists(output));
 }
 
+TEST(BadInput, ANameThatTheFileSystemDoesNotTakeIsNamed) {
+  const std::string name(300, 'n');
+  expectRefused(palp::test::palp({"report", "noise", "-o", name}), {name, "File name too long"});
+  expectRefused(palp::test::palp({"study", name, "-o", "out"}), {name, "File name too long"});
+  expectRefused(palp::test::palp({"design", "-o", name + "/sensor.json"}), {name, "File name too long"});
+  EXPECT_FALSE(std::filesystem::exists("out"));
+}
+
 TEST(BadInput, AnOutputThatExistsIsKept) {
   const palp::TemporaryFolder folder;
   const std::string file = folder / "sensor.json";

@@ -1,9 +1,11 @@
 #include "tests/app/cli/Process.h"
 
 #include "io/DesignFile.h"
+#include "io/SampleFile.h"
 #include "tests/io/TemporaryFolder.h"
 #include "tests/io/board/BoardAtRest.h"
 
+#include <SourceDir.h>
 #include <gtest/gtest.h>
 
 using nlohmann::json;
@@ -86,6 +88,33 @@ TEST_F(CalibrateAtRest, NamesABrokenWireAndRefusesWhatCannotBe) {
   outcome = calibrate();
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_NE(outcome.errors.find("Eq. (1)"), std::string::npos) << outcome.errors;
+}
+
+/// As a load cell gives them, for which a push is positive.
+TEST(CalibrateCommand, WritesNoNetworkThatIsTurnedRoundUnlessForced) {
+  const palp::TemporaryFolder folder;
+  const std::string network = PALP_SOURCE_DIR "/resources/board/paper-network.json";
+  const palp::SampleSet samples = palp::loadSamples(PALP_SOURCE_DIR "/resources/board/paper-samples.csv");
+  std::vector<Eigen::Index> some;
+  for (Eigen::Index i = 0; i < samples.size(); i += 6) some.push_back(i);
+  palp::SampleSet frames = palp::samplesAt(samples, some);
+  const auto refined = [&](std::vector<std::string> more) {
+    palp::saveSamples(folder / "frames.csv", frames, true);
+    more.insert(more.begin(), {"calibrate", network, folder / "frames.csv", "-o", folder / "better.json", "--json"});
+    return palp::test::palp(more);
+  };
+  ASSERT_EQ(refined({}).exit, 0);
+  std::filesystem::remove(folder / "better.json");
+  frames.forces_N.row(2) *= -1;
+  const Outcome refused = refined({});
+  EXPECT_EQ(refused.exit, 2) << refused.errors;
+  EXPECT_NE(refused.errors.find("frames.csv: the labels have the opposite sign of Fz"), std::string::npos)
+      << refused.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "better.json"));
+  const Outcome forced = refined({"--force"});
+  EXPECT_EQ(forced.exit, 0) << forced.errors;
+  EXPECT_NE(forced.json().at("warnings").dump().find("opposite sign of Fz"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "better.json"));
 }
 
 } // namespace

@@ -259,6 +259,15 @@ TEST(ListenTruth, AReplayGivesEveryFrameAtAnySpeed) {
   EXPECT_GT(std::stoi(sent.output.substr(sent.output.rfind('\n', sent.output.size() - 2) + 1)), 1490) << all(sent);
 }
 
+TEST(ListenTruth, ARecordingIsJudgedByItsOwnTime) {
+  const palp::TemporaryFolder folder;
+  const std::string file = folder / "a.palprec";
+  ASSERT_EQ(listen({"--simulate", "--rate", "8000", "--frames", "200", "--record", file}).exit, 0); // half a second
+  const Outcome outcome = listen({"--check", "--replay", file, "--speed", "0"}); // five seconds of a board
+  EXPECT_TRUE(says(outcome.output, " of 8000")) << all(outcome);
+  EXPECT_GT(std::stod(outcome.output.substr(outcome.output.find("to 2 %: ") + 8)), 4000) << all(outcome);
+}
+
 TEST(ListenTruth, SpoiltBytesOfARecordingAreSaid) {
   const palp::TemporaryFolder folder;
   const std::string file = folder / "a.palprec";

@@ -80,6 +80,28 @@ TEST(ReplayOfChanges, EachReportComesWithTheConfigurationThatWasInForce) {
   EXPECT_EQ(assembler.counts().stale, 0U);
 }
 
+TEST(ReplayLoop, OverAPauseOfTheRecordingDoesNotHoldTheReplay) {
+  const TemporaryFolder folder;
+  const BoardSettings settings = smallBoard();
+  {
+    RecordingWriter writer(folder / "a", {settings.info, settings.configuration, "SMALL-1", "", 1}, true);
+    for (const double begin_s : {0., 3.}) { // the board was out between them
+      VirtualBoard board = boardWith(settings);
+      double time_s = kBegin_s + begin_s;
+      for (const Bytes& report : reportsOf(board, 50, static_cast<std::uint64_t>(1000 + 1e6 * begin_s)))
+        writer.append(EntryKind::Raw, time_s += 1e-3, report);
+    }
+  }
+  auto control = asFastAsItCan();
+  control->loopFrom_s = 1;
+  control->loopTo_s = 2;
+  control->loop = true;
+  ReplaySource source(folder / "a", control);
+  int reports = 0;
+  for (RawReport report; reports < 1000 && source.read(report, kNoTime) == ReportSource::Outcome::Read;) ++reports;
+  EXPECT_EQ(reports, 100) << "each once";
+}
+
 /// What lies at a place of the recording that was gone to.
 struct Found {
   double time_s = 0;

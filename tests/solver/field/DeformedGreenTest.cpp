@@ -1,5 +1,6 @@
 #include "solver/field/DeformedGreen.h"
 
+#include "model/DesignError.h"
 #include "model/FieldAtRest.h"
 #include "model/FieldSensitivity.h"
 #include "solver/SensorMesh.h"
@@ -165,6 +166,16 @@ TEST_P(DeformedGreenOf, ASmallBendingChangesResistancesAsHadamardsTermSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DeformedGreenOf, testing::Values(1U, 7U, 23U));
+
+TEST(DeformedGreen, NamesAnElectrodeThatNoElementHolds) {
+  const Block block(3);
+  FieldState state = block.moved(Eigen::Matrix3d::Identity());
+  state.conductivity.pressures_MPa = Eigen::VectorXd::Zero(block.green->mesh().nodes());
+  state.radius_mm = 0.1;
+  EXPECT_NEAR(block.green->conductivities(state).maxCoeff(), 1, 1e-9);
+  state.nodes_mm.setZero(); // elements without a size: no coordinates in them are numbers
+  EXPECT_THROW((void)block.green->conductivities(state), DesignError);
+}
 
 TEST(DeformedGreen, StopsWhereItIsAsked) {
   const Block block(3);

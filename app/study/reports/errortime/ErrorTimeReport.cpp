@@ -7,6 +7,7 @@
 #include "app/study/reports/errortime/ChainTimes.h"
 #include "app/study/reports/errortime/SolverTimes.h"
 #include "app/study/reports/errortime/TouchTimes.h"
+#include "model/base/Error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,11 +50,7 @@ public:
     content_.title = words_("title");
     if (!solver()) return {};
     if (!addTouchTimes(request_, quick_, partOf(progress_, 0.35, 0.15), stop_, content_, csv_)) return {};
-    const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.5, 0.05), stop_);
-    if (!sets) return {};
-    networks(*sets);
-    samples();
-    chain();
+    decoding();
     if (stop_.stop_requested()) return {};
     use();
     content_.csv = csv_.text();
@@ -61,6 +58,21 @@ public:
   }
 
 private:
+  /// A design whose samples have no solution keeps what was found of its solver.
+  void decoding() {
+    try {
+      const auto sets = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0.5, 0.05), stop_);
+      if (!sets) return;
+      networks(*sets);
+      samples();
+      chain();
+    } catch (const Error& refused) {
+      const std::string why = std::string("There are no samples to decode: ") + refused.what();
+      content_.parts.push_back(ReportWords{why});
+      content_.warnings.push_back(why);
+    }
+  }
+
   bool solver() {
     if (quick_) repeats_ = 1;
     const auto found =

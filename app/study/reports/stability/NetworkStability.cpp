@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace palp {
 
@@ -136,7 +137,11 @@ void addBrokenWires(StabilityCases& cases, const SensorDesign& design, const Two
 void addNetworkCases(StabilityCases& cases, const ReportRequest& request, StageLog& stages) {
   ReportRequest coarse = request;
   if (!coarse.mesh.mapped && !coarse.mesh.meshSize_mm) coarse.mesh.mapped = std::array<int, 3>{10, 10, 5};
-  const auto sets = twoSets(request.design, coarse, stages, {}, cases.stop());
+  std::optional<TwoSets> sets;
+  const StabilityRow made = runCase("network", "samples of the design", [&](StabilityRow&) {
+    sets = twoSets(request.design, coarse, stages, {}, cases.stop());
+  });
+  if (made.outcome != StabilityOutcome::Right) cases.add(made);
   if (!sets) return;
   const NetworkData data = dataOf(request.design, *sets);
   for (const Tail tail : {Tail::Linear, Tail::Bias})

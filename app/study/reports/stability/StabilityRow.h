@@ -51,6 +51,8 @@ public:
     if (progress_) progress_(0, group + ": " + what);
     rows_.push_back(runCase(group, what, work));
   }
+  /// A case that has run.
+  void add(StabilityRow row) { rows_.push_back(std::move(row)); }
   [[nodiscard]] const std::stop_token& stop() const { return stop_; }
 
 private:

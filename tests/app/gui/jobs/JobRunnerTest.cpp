@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <vector>
 
 namespace palp {
@@ -98,6 +99,12 @@ TEST(JobRunner, WhateverWorkThrowsIsSaid) {
   QSignalSpy failed(&runner, &JobRunner::failed);
   runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking { throw 7; });
   EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kJobPatience_ms));
+  runner.start("work", [](const std::stop_token&, JobProgress&) -> JobRunner::Taking {
+    throw std::logic_error("a promise is broken");
+  });
+  EXPECT_TRUE(QTest::qWaitFor([&] { return failed.count() == 2; }, kJobPatience_ms));
+  EXPECT_EQ(failed[1][0].toString(), "internal error: a promise is broken")
+      << "no sentence of ours, and said to be none";
 }
 
 /// Saving cannot be stopped; `begun` is raised and then `go` waited for.

@@ -110,6 +110,15 @@ TEST(Calibration, SaysThatALabelDoesNotBelongToItsFrame) {
   EXPECT_NE(all.find("off by"), std::string::npos) << all;
 }
 
+TEST(Calibration, SaysThatTheLabelsHaveTheOppositeSign) {
+  EXPECT_EQ(calibrate(quickNetwork(), frames(10)).report.opposed, "");
+  SampleSet turned = frames(10);
+  turned.forces_N.row(2) *= -1; // as a load cell gives a push
+  const CalibrationReport report = calibrate(quickNetwork(), turned).report;
+  EXPECT_EQ(report.opposed, "z");
+  EXPECT_NE(warningsOf(report).front().find("opposite sign of Fz"), std::string::npos) << warningsOf(report).front();
+}
+
 TEST(Calibration, RefusesWhatItCannotUse) {
   EXPECT_NE(refusal([] { calibrate(quickNetwork(), frames(1)); }).find("6 labelled frames"), std::string::npos);
   SampleSet other = frames(10);

@@ -93,6 +93,32 @@ TEST(NoiseBound, SaysNothingWhereSamplesAreTooFewToKnowSlopes) {
   const NoiseBound bound = noiseBound(few, InputKind::Resistance, {0}, 1e-4);
   EXPECT_TRUE(bound.withPriorPercent.array().isNaN().all()) << "the prior alone is no bound of the sensor";
   EXPECT_TRUE(bound.withoutPriorPercent.array().isNaN().all());
+  EXPECT_NE(inWords(bound).find("too few samples"), std::string::npos) << inWords(bound);
+}
+
+/// As of a rig that presses and never pulls sideways: what is left is the bound of that force alone.
+TEST(NoiseBound, OfAForceAloneIsThatOfASensorOfThisForce) {
+  SampleSet set = linearSensor();
+  const NoiseBound all = noiseBound(set, InputKind::Resistance, {0}, 1e-4);
+  set.forces_N.topRows(2).setZero();
+  set.resistances_ohm.topRows(2).setConstant(kRest_ohm);
+  const NoiseBound bound = noiseBound(set, InputKind::Resistance, {0}, 1e-4);
+  EXPECT_NEAR(bound.withoutPriorPercent(2), all.withoutPriorPercent(2), 1e-6 * all.withoutPriorPercent(2));
+  EXPECT_NEAR(bound.withPriorPercent(2), all.withPriorPercent(2), 1e-6 * all.withPriorPercent(2));
+  EXPECT_TRUE(bound.withPriorPercent.head<2>().array().isNaN().all());
+  const std::string words = inWords(bound);
+  EXPECT_TRUE(words.starts_with("without prior - - ")) << words;
+  EXPECT_TRUE(words.ends_with("does not vary in the samples")) << words;
+  set.forces_N.setZero();
+  EXPECT_TRUE(noiseBound(set, InputKind::Resistance, {0}, 1e-4).withPriorPercent.array().isNaN().all());
+}
+
+TEST(NoiseBound, WithoutLimitSaysSo) {
+  SampleSet set = linearSensor();
+  set.resistances_ohm.row(2).setConstant(kRest_ohm);
+  const std::string words = inWords(noiseBound(set, InputKind::Resistance, {0}, 1e-4));
+  EXPECT_NE(words.find("unlimited: the readings do not determine"), std::string::npos) << words;
+  EXPECT_EQ(words.find("inf "), std::string::npos) << words;
 }
 
 } // namespace

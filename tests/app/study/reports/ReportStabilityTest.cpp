@@ -52,6 +52,22 @@ const StabilityRow& rowOf(const std::vector<StabilityRow>& rows, const std::stri
 
 } // namespace
 
+/// The cases of the solver are not lost with it.
+TEST(StabilityCase, SamplesWithoutASolutionAreOneThatSaysSo) {
+  std::vector<StabilityRow> rows;
+  palp::StabilityCases cases(rows, {}, {});
+  palp::ReportRequest request;
+  request.design.material.c01_MPa = -0.32; // nearly no shear stiffness is left
+  request.mesh.mapped = std::array<int, 3>{4, 4, 2};
+  request.perArea = 5;
+  palp::StageLog stages;
+  addNetworkCases(cases, request, stages);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(nameOf(rows[0]), "network: samples of the design");
+  EXPECT_EQ(rows[0].outcome, StabilityOutcome::Stopped);
+  EXPECT_NE(rows[0].words.find("load "), std::string::npos) << rows[0].words;
+}
+
 TEST(StabilityCase, ARefusalKeepsItsSentence) {
   const StabilityRow row = palp::runCase("g", "w", [](StabilityRow&) { throw palp::DesignError("z_mm: too deep"); });
   EXPECT_EQ(row.outcome, StabilityOutcome::Refused);

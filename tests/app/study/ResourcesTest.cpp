@@ -1,0 +1,33 @@
+#include "app/study/Resources.h"
+
+#include "app/study/Failure.h"
+#include "model/base/Error.h"
+
+#include <gtest/gtest.h>
+
+namespace palp {
+namespace {
+
+TEST(Resources, AFileThatIsMissingIsNamedWithTheFoldersThatWereLookedIn) {
+  EXPECT_TRUE(std::filesystem::exists(resource("docs/architecture.md")));
+  try {
+    (void)resource("board/no-such-network.json");
+    ADD_FAILURE() << "found";
+  } catch (const Error& missing) {
+    const std::string words = missing.what();
+    EXPECT_TRUE(words.starts_with("board/no-such-network.json: ")) << words;
+    EXPECT_NE(words.find("/usr/share/palp"), std::string::npos) << words;
+  }
+}
+
+TEST(Failure, OfTheFileSystemNamesTheFileAndTheReason) {
+  try {
+    (void)std::filesystem::exists(std::string(300, 'n'));
+    ADD_FAILURE() << "taken";
+  } catch (...) {
+    EXPECT_EQ(failureInWords(std::current_exception()), std::string(300, 'n') + ": File name too long");
+  }
+}
+
+} // namespace
+} // namespace palp
