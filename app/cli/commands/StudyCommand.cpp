@@ -38,7 +38,7 @@ void sayLargestMesh(const StudyFolder& study, const SampleRange& range, Session&
       if (elements <= most) continue;
       most = elements;
       largest = i;
-    } catch (const Error&) { // a row of its own says why
+    } catch (const Error&) { // a row of its own states why
       continue;
     }
   }

@@ -94,9 +94,9 @@ QString plannedWords(const SampleSettings& samples, const SensorDesign& design, 
   const QString words = QObject::tr("Generates %1 samples for training and as many for testing").arg(count);
   const auto time = sampleTime(samples, design, mesh);
   if (!time) return words + QObject::tr("; the time on this mesh is not known yet.");
-  return words + (time->measuredHere ? QObject::tr(", in about %1 (last run).")
-                                     : QObject::tr(", in about %1 (estimate)."))
-                     .arg(roughly(time->seconds));
+  return words +
+         (time->measuredHere ? QObject::tr(", in about %1 (last run).") : QObject::tr(", in about %1 (estimate)."))
+             .arg(roughly(time->seconds));
 }
 
 } // namespace palp

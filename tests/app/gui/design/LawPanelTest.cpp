@@ -136,7 +136,8 @@ TEST_F(LawPanelTest, ALawThatTheDesignCannotHaveSaysWhereAndComesWithTheNumberTh
   const QString problem = problemAt("resistance.electrode_radius_mm");
   EXPECT_TRUE(problem.contains("electrodes overlap")) << problem.toStdString();
   EXPECT_TRUE(problem.contains("The design still has Eq. (1)")) << problem.toStdString();
-  EXPECT_TRUE(problemAt("resistance.law").contains("The design still has Eq. (1)")) << problemAt("resistance.law").toStdString();
+  EXPECT_TRUE(problemAt("resistance.law").contains("The design still has Eq. (1)"))
+      << problemAt("resistance.law").toStdString();
   QTest::keyClick(&find<QComboBox>("resistance.law"), Qt::Key_Z, Qt::ControlModifier);
   settle();
   EXPECT_EQ(find<QComboBox>("resistance.law").currentIndex(), 0) << "what was not applied goes first";

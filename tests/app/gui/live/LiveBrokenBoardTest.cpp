@@ -77,7 +77,8 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
 TEST_F(LiveBrokenBoard, ABrokenColumnWireWidensTheDeviationAndEndsNoForce) {
   ASSERT_TRUE(waitForFrames());
   type<QSpinBox>("openColumn", "7");
-  ASSERT_TRUE(wait([&] { return banner().startsWith("column-wire 7: open. Forces continue"); })) << banner().toStdString();
+  ASSERT_TRUE(wait([&] { return banner().startsWith("column-wire 7: open. Forces continue"); }))
+      << banner().toStdString();
   const LiveFrame* last = page.host().history().last();
   EXPECT_TRUE(last->forces.valid) << last->forces.reason;
   EXPECT_EQ(last->forces.missingReadings, 10);

@@ -341,7 +341,8 @@ TEST_F(LiveCalibrating, FitsOnlyWhereThereAreFramesEnoughAndSaysHowManyThereAre)
   EXPECT_FALSE(report().contains("The frames have changed"));
   find<QTableWidget>("labelledFrames").selectRow(3);
   click("removeFrame");
-  EXPECT_TRUE(report().contains("The frames have changed since the fit: 7 now, 8 are needed")) << report().toStdString();
+  EXPECT_TRUE(report().contains("The frames have changed since the fit: 7 now, 8 are needed"))
+      << report().toStdString();
 }
 
 } // namespace

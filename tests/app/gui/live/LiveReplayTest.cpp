@@ -215,8 +215,7 @@ TEST_F(LiveReplay, SaysThatTheReplayStandsAndNotTheBoard) {
       << page.lamp().words.toStdString();
   click("replayPause");
   ASSERT_TRUE(waitForState(LiveState::Ended));
-  EXPECT_TRUE(page.lamp().words.startsWith("Replay ended: recording touch.palprec"))
-      << page.lamp().words.toStdString();
+  EXPECT_TRUE(page.lamp().words.startsWith("Replay ended: recording touch.palprec")) << page.lamp().words.toStdString();
   click("replayBack");
   EXPECT_TRUE(waitForState(LiveState::Paused)) << "the end can be stepped back from";
 }
