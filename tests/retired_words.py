@@ -9,7 +9,7 @@ RETIRED = {
     r"beside": "next to, together with, compared with, at the same time as",
     r"allowed (is|are)": "expected",
     r"(stands?|stood)(?!-)": "is, appears, is stored",
-    r"(?<!there\s)(is|are) no(?! (longer|more|force|unbiased))": "is not a, has no",
+    r"(?<!there\s)(is|are) no(?! (longer|more|better|force|unbiased))": "is not a, has no",
     r"at once": "immediately, together",
     r"(goes?|went|gone|going) on": "continues",
     r"that (is|are|was|were) there": "existing",
