@@ -46,7 +46,8 @@ TEST(NpzFile, OfMoreNumbersThanCanBeCountedIsRefused) {
   writer.begin("a", "<f8", huge);
   writer.end();
   writer.close();
-  expectIn(refusal([&] { NpzArray(folder / "a.npz", "a"); }), {"array a", "other bytes than its head says"});
+  expectIn(refusal([&] { NpzArray(folder / "a.npz", "a"); }),
+           {"array a", "another number of bytes than given in its head"});
 }
 
 TEST_P(SampleArrays, ReadBackTheSameNumbers) {

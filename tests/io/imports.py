@@ -87,7 +87,7 @@ def check_dead_reading():
     ohm[:, 1, 2] = 1e6
     frame_of(pad, force_N, ohm).to_csv("dead.csv", index=False)
     warnings = made("import", "dead.csv", "--map", mapped(), "-o", "dead.h5")["warnings"]
-    assert any("R_r1_c2 (1e+06 ohm) stays the same in all 300 samples" in words for words in warnings), warnings
+    assert any("R_r1_c2 (1e+06 ohm) has the same value in all 300 samples" in words for words in warnings), warnings
 
 
 def check_numbers():

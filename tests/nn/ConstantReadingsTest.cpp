@@ -12,7 +12,7 @@ TEST(ConstantReadings, AreNamedWithTheirValues) {
   readings.add(block);
   readings.add(block);
   const std::string words = readings.inWords([](Eigen::Index i) { return "R" + std::to_string(i); }, "ohm");
-  EXPECT_EQ(words.find("reading R2 (1e+09 ohm) stays the same in all 10 samples"), 0U) << words;
+  EXPECT_EQ(words.find("reading R2 (1e+09 ohm) has the same value in all 10 samples"), 0U) << words;
 }
 
 TEST(ConstantReadings, OfTooFewSamplesSayNothing) {

@@ -25,7 +25,9 @@ TEST(Failure, OfTheFileSystemNamesTheFileAndTheReason) {
     (void)std::filesystem::exists(std::string(300, 'n'));
     ADD_FAILURE() << "taken";
   } catch (...) {
-    EXPECT_EQ(failureInWords(std::current_exception()), std::string(300, 'n') + ": File name too long");
+    const std::string words = failureInWords(std::current_exception());
+    EXPECT_TRUE(words.starts_with(std::string(300, 'n') + ": ")) << words;
+    EXPECT_TRUE(words.ends_with("File name too long")) << words;
   }
 }
 
