@@ -224,11 +224,11 @@ TEST(ListenTruth, ADeviceThatIsNoBoardIsNamed) {
     const Outcome outcome = listen({"--device", device, "--seconds", "1"});
     EXPECT_EQ(outcome.exit, 2) << all(outcome);
     EXPECT_EQ(count(outcome.errors, "\n"), 1) << all(outcome);
-    EXPECT_TRUE(says(outcome.errors, "--device: " + device + words)) << all(outcome);
+    EXPECT_TRUE(says(outcome.errors, "--device: got '" + device + "', expected " + words)) << all(outcome);
   };
-  refuses("/dev/hidraw77", " is not there");
-  refuses("/dev/tty", "not a serial port");
-  refuses("/dev/null", "expected a HID device");
+  refuses("/dev/hidraw77", "an existing device");
+  refuses("/dev/tty", "a USB HID device /dev/hidrawN, not a serial port");
+  refuses("/dev/null", "a HID device");
   const Outcome list = listen({"--list", "--usb", "0x1209:0x0fff"});
   EXPECT_EQ(list.exit, 0) << all(list);
   EXPECT_FALSE(list.output.empty());

@@ -299,7 +299,7 @@ TEST_F(LiveWithABoard, ShowsThatTheBoardFellSilent) {
   ASSERT_TRUE(waitForState(LiveState::Streaming));
   gate->silent = true;
   ASSERT_TRUE(waitForState(LiveState::Stalled));
-  EXPECT_TRUE(wait([&] { return banner().contains("nothing has come"); }));
+  EXPECT_TRUE(wait([&] { return banner().contains("no report received"); }));
   gate->silent = false;
   EXPECT_TRUE(waitForState(LiveState::Streaming));
 }
