@@ -242,9 +242,9 @@ TEST(ClusterCommand, AsksSlurmForItsLimitsBeforeTheWork) {
   };
   refused({"--shards", "4", "--submit"}, "--shards: got 4, expected at most 3 on this cluster");
   refused({"--shards", "3", "--submit", "--sbatch", "--account=lab"}, "Invalid account");
-  refused({"--shards", "3", "--sbatch", "short"}, "--sbatch: 'short'");
-  refused({"--shards", "3", "--sbatch", "-p x; rm"}, "--sbatch: '-p x; rm'");
-  refused({"--shards", "3", "--sbatch", "--array=1"}, "--sbatch: --array");
+  refused({"--shards", "3", "--sbatch", "short"}, "--sbatch: got 'short'");
+  refused({"--shards", "3", "--sbatch", "-p x; rm"}, "--sbatch: got '-p x; rm'");
+  refused({"--shards", "3", "--sbatch", "--array=1"}, "--sbatch: got --array");
   EXPECT_FALSE(fs::exists(folder / "job"));
 }
 

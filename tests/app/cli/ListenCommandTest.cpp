@@ -97,7 +97,7 @@ TEST(ListenCommand, RefusesWhatCannotBe) {
   refuses({"--replay", "/nonexistent", "--noise", "1e-6"}, "--noise requires --simulate");
   refuses({"--simulate", "--usb", "12", "--list"}, "--usb");
   refuses({"--simulate", "--label", "0:0,0,-1"}, "--append");
-  refuses({"--simulate", "--hold", "6:0,0,-1"}, "--hold (area): '6'");
+  refuses({"--simulate", "--hold", "6:0,0,-1"}, "--hold (area): got '6'");
   refuses({"--simulate", "--hold", "0:0,0,-60"}, "--hold 0:0,0,-60: Fz is outside of the samples");
   refuses({"--hold", "0:0,0,-1"}, "--hold requires --simulate");
   refuses({"--simulate", "--network", samplesFile()}, "paper-samples.csv");

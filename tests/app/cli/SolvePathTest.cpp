@@ -62,7 +62,7 @@ TEST(SolvePath, ABrokenFileIsRefusedInOneLine) {
       {path({off}).dump(), "(40, 15)"},
       {path({text}).dump(), "deep"},
       {path({sphere(-1, 0)}).dump(), "-1"},
-      {noIndenters.dump(), "no indenter"},
+      {noIndenters.dump(), "indenters: got 0"},
       {"[]", "steps of the path: got 0"},
       {"{}", "a list"},
       {"[{\"indenters\": [", "not valid JSON"},
