@@ -195,7 +195,7 @@ TEST(NetworkFile, RefusesOutputsThatAreNoForces) {
     d.residual_N.conservativeResize(2, Eigen::NoChange);
   };
   const std::string sentence = refusalWith(smallDecoder(DecoderKind::Polynomial2), twoOutputs);
-  EXPECT_NE(sentence.find("3 outputs, the components of one force, not 2"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("3 outputs, the components of one force instead of 2"), std::string::npos) << sentence;
   const std::string several = refusalWith(togetherDecoder(), [](Decoder& d) { d.areaCount = 3; });
   EXPECT_NE(several.find("9 outputs, three per area instead of 6"), std::string::npos) << several;
 }

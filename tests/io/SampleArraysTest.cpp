@@ -79,7 +79,7 @@ TEST_P(SampleArrays, KeepTwoTouchesAtOnceForWhoAsks) {
   SampleSet wrong = set;
   wrong.beside(kTouchShape, 2) = 0.5;
   saveSamples(file("wrong"), wrong, false);
-  expectIn(refusal([&] { loadSamples(file("wrong"), {}, true); }), {"sample 2", "shape 0.5"});
+  expectIn(refusal([&] { loadSamples(file("wrong"), {}, true); }), {"sample 2", "shape: got 0.5"});
 }
 
 TEST_P(SampleArrays, KeepTheHead) {
@@ -229,7 +229,7 @@ TEST_P(SampleArrays, RefuseNumbersThatAreNotFiniteAndAreasThatAreNotThere) {
   set = randomSet(300, 1);
   set.area(299) = 2;
   saveSamples(file("b"), set, false);
-  expectIn(sentenceOf(file("b")), {"sample 299", "area 2", "0 to 1"});
+  expectIn(sentenceOf(file("b")), {"sample 299", "area: got 2", "0 to 1"});
 }
 
 TEST_P(SampleArrays, RefuseAFileThatIsCutOffOrDamaged) {

@@ -107,7 +107,7 @@ TEST(Indenter, RefusesPlacesOffTheBodyAndSizesThatAreNone) {
   EXPECT_NE(refusal(indenter).find("rim radius: got 3.5 mm, expected 0 to the punch's radius, 3 mm"),
             std::string::npos);
   indenter = indenterOf(IndenterShape::Sphere, 0);
-  EXPECT_NE(refusal(indenter).find("radius 0 mm"), std::string::npos);
+  EXPECT_NE(refusal(indenter).find("radius: got 0 mm"), std::string::npos);
   indenter = indenterOf(IndenterShape::Sphere);
   indenter.place_mm.x() = 31;
   EXPECT_NE(refusal(indenter).find("a position on the top face"), std::string::npos);

@@ -64,7 +64,7 @@ TEST(Batch, CountsLoadsFromTheNumberGiven) {
     static_cast<void>(batch.solve(loads, {}, {}, 500));
     FAIL() << "area 9 is none of the design's";
   } catch (const DesignError& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("load 501: area 9"), std::string::npos) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("load 501: area: got 9"), std::string::npos) << refusal.what();
   }
 }
 
