@@ -31,6 +31,14 @@ TEST(SampleGenerator, DrawsForcesInsideTheRange) {
   }
 }
 
+TEST(SampleGenerator, GivesTheMeshThatItsSamplesNeedBeforeItIsMade) {
+  SampleRequest request;
+  request.perArea = 4;
+  EXPECT_EQ(SampleGenerator(paperDesign(), request).meshing(), request.mesh);
+  request.touches = touchesOf(paperDesign());
+  EXPECT_FALSE(SampleGenerator(paperDesign(), request).meshing().zones.empty());
+}
+
 TEST(SampleGenerator, ForcesAreUniformAndUncorrelated) {
   const SampleGenerator generator(paperDesign(), coarse(2000));
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
