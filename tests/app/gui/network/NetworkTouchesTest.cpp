@@ -114,7 +114,7 @@ TEST_F(SampledTouches, TeachANetworkForceAndPlace) {
   SampleBounds learned; // training a decoder that says them takes most of a minute
   learned.learned.assign(20, {Eigen::Vector3d(0.1, 0.1, 0.125), Eigen::Vector2d(0.3, 0.4)});
   EXPECT_TRUE(boundWords(network, *network.fit(), &learned)
-                  .contains("at each touch, by its own model, medians): Fz 0.125 N, place 0.5 mm; its errors are "));
+                  .contains("at each touch, by its own model, medians): Fz 0.125 N, position 0.5 mm; its errors are "));
 
   QTemporaryDir folder;
   const std::filesystem::path file = folder.filePath("touches.csv").toStdString();
