@@ -6,6 +6,7 @@
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/Markup.h"
 
 #include <QComboBox>
 #include <QElapsedTimer>
@@ -52,7 +53,7 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   connect(compare_, &QPushButton::clicked, this, &DesignComparison::compare);
   connect(back_, &QPushButton::clicked, this, &DesignComparison::goBack);
   connect(fields_, &QPushButton::clicked, this, &DesignComparison::showFields);
-  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &DesignComparison::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (cancelled) {
@@ -112,7 +113,7 @@ void DesignComparison::build() {
   stale_ = new QLabel;
   stale_->setObjectName("comparisonState");
   stale_->setProperty("role", "hint");
-  words_ = new QLabel;
+  words_ = markupLabel();
   words_->setObjectName("comparison");
   for (QLabel* label : {stale_, words_}) {
     label->setWordWrap(true);
@@ -234,10 +235,10 @@ void DesignComparison::showCompared() {
   const bool map = shown_ && !shown_->difference_percent.empty();
   const bool atRest = shown_ && (shown_->earlier.field() != nullptr || shown_->now.field() != nullptr);
   words_->setText(shown_
-                      ? tr("<b>%1</b><br>").arg(QString::fromStdString(shown_->name).toHtmlEscaped()) +
+                      ? tr("<b>%1</b><br>").arg(asWritten(QString::fromStdString(shown_->name))) +
                             (atRest ? tr("Both at rest. ") : QString()) +
                             boundTable(tr("that design"), shown_->earlierBounds, tr("this design"), shown_->nowBounds) +
-                            QString::fromStdString(shown_->words)
+                            asWrittenWithBold(QString::fromStdString(shown_->words))
                       : QString());
   difference_->setVisible(map);
   if (map) difference_->setHeatmap(heatmapLess(differenceOf(*shown_), tr("the earlier design").toStdString()));

@@ -3,6 +3,7 @@
 #include "app/gui/design/DesignPresets.h"
 #include "app/gui/design/LawPanel.h"
 #include "app/gui/design/WireScaling.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
 #include <QCheckBox>
@@ -29,6 +30,7 @@ DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 6, 0);
   derived_ = new WrappedLabel;
+  derived_->setTextFormat(Qt::RichText);
   derived_->setObjectName("derived");
   derived_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   buildPresets();
@@ -168,7 +170,7 @@ void DesignPanel::showDerived(const SensorDesign& design) {
   if (rubber == paperDesign().material)
     words += tr("<br><i>The paper's rubber (F. Wang et al. 2013; see Help, About). The paper also prints E = 2.08e5 "
                 "N/mm2, which is steel and five orders of magnitude above C10 and C01; that value is not used.</i>");
-  if (const auto square = whyNotSquare(design)) words += "<br>" + QString::fromStdString(*square);
+  if (const auto square = whyNotSquare(design)) words += "<br>" + asWritten(QString::fromStdString(*square));
   derived_->say(words);
 }
 

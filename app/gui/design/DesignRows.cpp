@@ -1,5 +1,6 @@
 #include "app/gui/design/DesignRows.h"
 
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
 #include <QComboBox>
@@ -69,7 +70,7 @@ void DesignRows::add(const DesignField& field, QFormLayout& form, const std::fun
   }
   QWidget* const widget = row.widget();
   widget->setObjectName(field.key);
-  widget->setToolTip(field.tip + QString("<br><i>%1</i>").arg(field.key));
+  widget->setToolTip(QString("<qt>%1<br><i>%2</i></qt>").arg(asWritten(field.tip), field.key));
   widget->setAccessibleName(field.group + ", " + field.label);
   const QString label = field.label.left(1).toUpper() + field.label.mid(1);
   row.label = new QLabel(field.unit.isEmpty() ? label : label + " [" + field.unit + "]");

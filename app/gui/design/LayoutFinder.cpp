@@ -4,6 +4,7 @@
 #include "app/gui/design/DesignFields.h"
 #include "app/gui/design/ProgressWords.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/study/reports/layout/LayoutSearch.h"
 
 #include <QComboBox>
@@ -48,7 +49,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   row->addWidget(takeOver_);
   row->addStretch(1);
   column->addLayout(row);
-  words_ = new QLabel(intention());
+  words_ = markupLabel(intention());
   words_->setObjectName("layoutWords");
   words_->setWordWrap(true);
   words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -57,7 +58,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   connect(search_, &QPushButton::clicked, this, &LayoutFinder::search);
   connect(takeOver_, &QPushButton::clicked, this, &LayoutFinder::takeOver);
   sayProgress(runner_, *words_);
-  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (cancelled) shown_.reset(); // what was found before is shown again
@@ -80,7 +81,7 @@ QString layoutWords(const SensorDesign& before, const SensorDesign& after) {
     const QString from = field.text(before), to = field.text(after);
     if (from == to) continue;
     words += QString("<tr><td>%1, %2&nbsp;&nbsp;</td><td>%3 &rarr; <b>%4</b> %5</td></tr>")
-                 .arg(field.group, field.label, from.toHtmlEscaped(), to.toHtmlEscaped(), field.unit);
+                 .arg(field.group, field.label, asWritten(from), asWritten(to), field.unit);
   }
   return words + "</table>";
 }

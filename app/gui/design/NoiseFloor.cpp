@@ -2,6 +2,7 @@
 
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "model/base/Cancelled.h"
@@ -75,7 +76,7 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
   noise_->setToolTip(tr("Relative noise of each reading, in percent or as a ratio with an exponent (1e-4 is 0.01 %); a "
                         "good board has 0.0005 %, a plain one 0.01 %"));
   column->addWidget(noise_);
-  words_ = new QLabel;
+  words_ = markupLabel();
   words_->setObjectName("noiseFloor");
   words_->setWordWrap(true);
   words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
@@ -109,7 +110,7 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
     forget();
     if (words_->text() == computing()) words_->setText(tr("Cancelled; any edit of the design starts it again."));
   });
-  connect(&bounding_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&bounding_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
 }
 
 void NoiseFloor::forget() {

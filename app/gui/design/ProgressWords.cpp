@@ -1,6 +1,7 @@
 #include "app/gui/design/ProgressWords.h"
 
 #include "app/gui/jobs/JobRunner.h"
+#include "app/gui/widgets/Markup.h"
 
 #include <QLabel>
 
@@ -8,8 +9,9 @@ namespace palp {
 
 void sayProgress(JobRunner& runner, QLabel& label) {
   QObject::connect(&runner, &JobRunner::progressed, &label, [&label](double share, const QString& what) {
-    label.setText(share < 0 ? QObject::tr("Computing: %1").arg(what)
-                            : QObject::tr("Computing, %1 %: %2").arg(qRound(100 * share)).arg(what));
+    const QString words = share < 0 ? QObject::tr("Computing: %1").arg(what)
+                                    : QObject::tr("Computing, %1 %: %2").arg(qRound(100 * share)).arg(what);
+    label.setText(label.textFormat() == Qt::RichText ? asWritten(words) : words);
   });
 }
 

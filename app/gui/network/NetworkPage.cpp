@@ -13,6 +13,7 @@
 #include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
 
@@ -218,7 +219,7 @@ QLayout* NetworkPage::buildBar() {
 }
 
 QWidget* NetworkPage::buildCharts() {
-  fitWords_ = new QLabel;
+  fitWords_ = markupLabel();
   fitWords_->setObjectName("fitWords");
   fitWords_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   fitWords_->setWordWrap(true);

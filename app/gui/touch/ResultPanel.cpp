@@ -4,6 +4,7 @@
 #include "app/gui/jobs/MatchedLoad.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
+#include "app/gui/widgets/Markup.h"
 
 #include <QLabel>
 #include <QPushButton>
@@ -55,7 +56,7 @@ QString contactWords(const Indenter& indenter, int index, const IndenterState& n
 ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   auto* lines = new QVBoxLayout(this);
   lines->setContentsMargins(0, 0, 0, 0);
-  result_ = new QLabel(tr("Not computed yet."));
+  result_ = markupLabel(tr("Not computed yet."));
   result_->setObjectName("result");
   estimate_ = new QPushButton(tr("Estimate the discretisation error"));
   estimate_->setObjectName("estimate");
@@ -67,9 +68,9 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
       tr("Colours the block by the difference between this touch and the same force spread uniformly over the load "
          "area beneath it, as in the paper; the Resistance scene shows the same comparison"));
   uniform_->hide();
-  probe_ = new QLabel;
+  probe_ = markupLabel();
   probe_->setObjectName("probe");
-  difference_ = new QLabel;
+  difference_ = markupLabel();
   difference_->setObjectName("difference");
   difference_->hide();
   for (QLabel* label : {difference_, result_, probe_}) {
@@ -110,7 +111,7 @@ void ResultPanel::display(const TouchSession& session) {
   if (between) lines.last() += tr(" (at the end; shown: %1)").arg(loadPlaceWords(session.loadFraction()));
   for (std::size_t k = 0; k < session.indenters().size(); ++k)
     lines << contactWords(touch.load().indenters[k], static_cast<int>(k), session.indenters()[k]);
-  const QString how = QString::fromStdString(solution->stopReason);
+  const QString how = asWritten(QString::fromStdString(solution->stopReason));
   if (solution->converged)
     lines << tr("Converged in %1 iterations%2.").arg(solution->iterations()).arg(how.isEmpty() ? "" : "; " + how);
   else
@@ -120,7 +121,8 @@ void ResultPanel::display(const TouchSession& session) {
                .arg(QString::fromStdString(touch.problem()->elementType()))
                .arg(touch.problem()->dof());
   lines << tr("Largest volume error |J - 1|: %1.").arg(number(solution->maxVolumeError, 3));
-  lines << tr("Discretisation error: %1").arg(errorWords_.isEmpty() ? tr("not estimated yet.") : errorWords_ + ".");
+  lines << tr("Discretisation error: %1")
+               .arg(errorWords_.isEmpty() ? tr("not estimated yet.") : asWritten(errorWords_) + ".");
   if (!session.upToDate()) lines << tr("<i>Outdated: this result belongs to the previous design, load or mesh.</i>");
   result_->setText(lines.join("<br>"));
   fitHeight(*result_);
@@ -138,7 +140,7 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
   const QString title = uniform ? tr("Difference from uniform load") : tr("Difference from the reference design");
   if (kept == nullptr) {
     difference_->setText(problem.isEmpty() ? tr("<b>%1:</b> computing...").arg(title)
-                                           : tr("<b>%1:</b> %2.").arg(title, problem));
+                                           : tr("<b>%1:</b> %2.").arg(title, asWritten(problem)));
   } else {
     const Quantity quantity = project.view.quantity;
     const NodalFields less = kept->at(session.loadFraction()).fields;

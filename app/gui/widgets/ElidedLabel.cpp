@@ -1,5 +1,7 @@
 #include "app/gui/widgets/ElidedLabel.h"
 
+#include "app/gui/widgets/ToolTipWrap.h"
+
 #include <QHelpEvent>
 #include <QPainter>
 #include <QStyle>
@@ -31,7 +33,7 @@ void ElidedLabel::paintEvent(QPaintEvent*) {
 
 bool ElidedLabel::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip || shownWords() == text()) return QLabel::event(event);
-  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
+  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), ToolTipWrap::wrapped(text()), this);
   return true;
 }
 

@@ -1,5 +1,6 @@
 #include "app/gui/widgets/SpinBoxes.h"
 
+#include "app/gui/widgets/ToolTipWrap.h"
 #include "model/base/NumberText.h"
 
 #include <QSignalBlocker>
@@ -46,7 +47,7 @@ void sayNotApplied(QWidget& at, const QString& sentence) {
     QMetaObject::invokeMethod(messages, "say", Q_ARG(QString, sentence));
   // The focus that is on its way to another widget would hide a box that is shown now.
   QTimer::singleShot(0, &at, [&at, sentence] {
-    if (at.isVisible()) QToolTip::showText(at.mapToGlobal(QPoint(0, at.height())), sentence, &at);
+    if (at.isVisible()) QToolTip::showText(at.mapToGlobal(QPoint(0, at.height())), ToolTipWrap::wrapped(sentence), &at);
   });
 }
 

@@ -1,5 +1,8 @@
 #include "app/gui/widgets/ToolTipWrap.h"
 
+#include "app/gui/widgets/Markup.h"
+
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QHelpEvent>
 #include <QTextDocument>
@@ -12,6 +15,14 @@ namespace {
 
 constexpr qsizetype kLongestLine = 70; // letters
 
+/// Of the row there, in a list; else the widget's own.
+QString tipAt(const QWidget& widget, const QPoint& place) {
+  const auto* view = qobject_cast<const QAbstractItemView*>(widget.parentWidget());
+  const bool list = view != nullptr && view->viewport() == &widget;
+  const QString ofRow = list ? view->indexAt(place).data(Qt::ToolTipRole).toString() : QString();
+  return ofRow.isEmpty() ? widget.toolTip() : ofRow;
+}
+
 } // namespace
 
 ToolTipWrap::ToolTipWrap(QObject* parent) : QObject(parent) {
@@ -19,16 +30,17 @@ ToolTipWrap::ToolTipWrap(QObject* parent) : QObject(parent) {
 }
 
 QString ToolTipWrap::wrapped(const QString& tip) {
-  if (tip.size() <= kLongestLine || Qt::mightBeRichText(tip)) return tip;
-  return "<p>" + tip.toHtmlEscaped().replace('\n', "<br>") + "</p>"; // Qt wraps what is rich text
+  if (tip.startsWith("<qt>") || (tip.size() <= kLongestLine && !Qt::mightBeRichText(tip))) return tip;
+  return "<p>" + asWritten(tip) + "</p>"; // Qt wraps what is markup
 }
 
 bool ToolTipWrap::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::ToolTip || !watched->isWidgetType()) return false;
   auto& widget = static_cast<QWidget&>(*watched);
-  const QString tip = wrapped(widget.toolTip());
-  if (tip == widget.toolTip()) return false; // also where parts of it have tips of their own
-  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), tip, &widget, {}, widget.toolTipDuration());
+  const auto& help = static_cast<const QHelpEvent&>(*event);
+  const QString given = tipAt(widget, help.pos()), tip = wrapped(given);
+  if (tip == given) return false; // also where parts of it have tips of their own
+  QToolTip::showText(help.globalPos(), tip, &widget, {}, widget.toolTipDuration());
   return true;
 }
 

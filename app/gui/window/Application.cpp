@@ -20,10 +20,10 @@ Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
 
 namespace {
 
-/// What a box says may hold a file's or a board's name, which is no markup. A box that means markup says RichText.
-void showAsWritten(QMessageBox& box) {
-  if (box.textFormat() != Qt::AutoText) return;
-  for (auto* label : box.findChildren<QLabel*>()) label->setTextFormat(Qt::PlainText);
+/// What a label shows may hold a file's or a board's name, which is not markup. A label that means markup says RichText
+/// (app/gui/widgets/Markup.h); tool tips are ToolTipWrap's.
+void showAsWritten(QLabel& label) {
+  if (label.textFormat() == Qt::AutoText && !label.inherits("QTipLabel")) label.setTextFormat(Qt::PlainText);
 }
 
 } // namespace
@@ -31,7 +31,8 @@ void showAsWritten(QMessageBox& box) {
 bool Application::notify(QObject* receiver, QEvent* event) {
   QString what;
   try {
-    if (auto* box = event->type() == QEvent::Show ? qobject_cast<QMessageBox*>(receiver) : nullptr) showAsWritten(*box);
+    if (auto* label = event->type() == QEvent::Polish ? qobject_cast<QLabel*>(receiver) : nullptr)
+      showAsWritten(*label);
     return QApplication::notify(receiver, event);
   } catch (const std::exception& fault) {
     what = QString::fromStdString(fault.what());

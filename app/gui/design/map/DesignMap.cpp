@@ -4,6 +4,7 @@
 #include "app/gui/design/ProgressWords.h"
 #include "app/gui/design/map/MapWork.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/study/Median.h"
 #include "app/study/reports/map/MapQuantities.h"
@@ -89,7 +90,7 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
     workbench_.edit(tr("Draw the map on the block"), next);
   });
   sayProgress(runner_, *words_);
-  connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
+  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &DesignMap::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (cancelled) shown_.reset(); // what was mapped before is shown again
@@ -129,7 +130,7 @@ void DesignMap::build() {
   stale_ = new QLabel;
   stale_->setObjectName("mapState");
   stale_->setProperty("role", "hint");
-  words_ = new QLabel;
+  words_ = markupLabel();
   words_->setObjectName("mapWords");
   words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   for (QLabel* label : {stale_, words_}) {

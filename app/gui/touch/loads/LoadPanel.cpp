@@ -2,6 +2,7 @@
 
 #include "app/gui/touch/loads/IndenterPanel.h"
 #include "app/gui/views/DiscHandle.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
@@ -115,7 +116,7 @@ void LoadPanel::buildForces() {
     sliders_[k]->setAccessibleName(spins_[k]->accessibleName());
     sliders_[k]->setRange(0, kSliderSteps);
     sliders_[k]->setMinimumWidth(90);
-    grid->addWidget(new QLabel(QString("F<sub>%1</sub>").arg(kDirections[k])), d, 0);
+    grid->addWidget(markupLabel(QString("F<sub>%1</sub>").arg(kDirections[k])), d, 0);
     grid->addWidget(sliders_[k], d, 1);
     grid->addWidget(spins_[k], d, 2);
     connect(spins_[k], &QDoubleSpinBox::valueChanged, this, [this, d](double value) { setForce(d, value); });

@@ -120,7 +120,7 @@ private:
           new QListWidgetItem(topic.heading == topic.page ? topic.page : topic.heading + "\n    " + topic.page, found_);
       item->setData(kFileRole, topic.file);
       item->setData(kHeadingRole, topic.heading);
-      item->setToolTip("<p>" + topic.text.left(kShownText).toHtmlEscaped() + "...</p>");
+      item->setToolTip(topic.text.left(kShownText) + "...");
     }
     list_->setVisible(!any);
     found_->setVisible(any);
