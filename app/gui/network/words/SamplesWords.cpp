@@ -65,6 +65,8 @@ QString openedWords(const NetworkSamples& samples, const QString& file) {
     words += samples.ofNoDesign ? QObject::tr("(measured; their design is not open)") : QObject::tr("(measured)");
   else
     words += QObject::tr("(%1, seed %2)").arg(countWords(samples.settings)).arg(samples.settings.seed);
+  const QString makers = QString::fromStdString(samples.training.origin.madeBy);
+  if (makers.contains("; ")) words += QObject::tr("; made by several programs: %1").arg(makers);
   if (!samples.split) return words;
   const std::filesystem::path beside = testFileOf(samples.file.toStdString());
   const QString test = QString::fromStdString(beside.filename().string());

@@ -1,4 +1,5 @@
 #include "app/gui/document/Document.h"
+#include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/HeatmapView.h"
@@ -97,6 +98,7 @@ TEST_F(OpenFiles, JoinsDroppedShardsAndKeepsEveryFifthSampleForTesting) {
     part->resistances_ohm = columns(all.resistances_ohm);
   }
   second.origin.firstSample = static_cast<std::size_t>(half);
+  second.origin.madeBy = "palp 0.1, avx2";
   saveSamples(inFolder("a.npz").toStdString(), second, false); // in the wrong order
   saveSamples(inFolder("b.h5").toStdString(), first, false);
   network.clear();
@@ -107,6 +109,7 @@ TEST_F(OpenFiles, JoinsDroppedShardsAndKeepsEveryFifthSampleForTesting) {
   EXPECT_EQ(network.samples()->training.size() + network.samples()->test.size(), all.size());
   EXPECT_EQ(network.samples()->test.size(), 6) << "one of the six on each area";
   EXPECT_EQ(network.samples()->training.forces_N.leftCols(4), all.forces_N.leftCols(4));
+  EXPECT_TRUE(samplesWords(network).contains("made by several programs: ")) << samplesWords(network).toStdString();
 }
 
 TEST_F(OpenFiles, RefusesOnePartAloneAndSamplesOfAnotherDesign) {
