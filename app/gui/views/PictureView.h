@@ -36,6 +36,8 @@ public:
   /// The name that is proposed for its files, without an ending: that of the view.
   [[nodiscard]] QString fileName(const QString& otherwise) const;
   [[nodiscard]] int renderCount() const { return renderCount_; }
+  /// Something changed that is seen and not drawn yet.
+  [[nodiscard]] bool waitsToDraw() const { return changed_ && !visibleRegion().isEmpty(); }
   [[nodiscard]] double aspect() const;
   /// A place of the widget as VTK counts: device pixels from the lower left.
   [[nodiscard]] QPointF devicePlace(const QPointF& place) const;

@@ -14,6 +14,7 @@
 #include <QJsonObject>
 #include <QTimer>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <ctime>
@@ -100,6 +101,12 @@ std::map<QString, int> SceneCosts::drawings() const {
   return result;
 }
 
+/// A view of the scene that is seen; on a busy machine that may take longer than a step is quiet for.
+bool SceneCosts::waitsToDraw() const {
+  const auto views = window_.currentScene().findChildren<const PictureView*>();
+  return std::any_of(views.begin(), views.end(), [](const PictureView* view) { return view->waitsToDraw(); });
+}
+
 double SceneCosts::settle() {
   QElapsedTimer clock;
   clock.start();
@@ -113,8 +120,10 @@ double SceneCosts::settle() {
       drew_s = now_s;
       drawn = std::move(now);
     }
-    if (now_s - std::max(worked_s, drew_s) > kQuiet_s) return std::max(worked_s, drew_s);
-    if (now_s - worked_s > kDrawsOn_s || now_s - ran_s > kIncomplete_s) return worked_s;
+    const bool waits = waitsToDraw();
+    if (!waits && now_s - std::max(worked_s, drew_s) > kQuiet_s) return std::max(worked_s, drew_s);
+    if ((!waits || drew_s > worked_s) && now_s - worked_s > kDrawsOn_s) return worked_s;
+    if (now_s - ran_s > kIncomplete_s) return worked_s;
   }
 }
 

@@ -33,6 +33,7 @@ private:
   QJsonObject step(const QString& event, const std::function<void()>& change, double exactly_s = 0);
   /// Seconds until the last of the work and its picture.
   double settle();
+  [[nodiscard]] bool waitsToDraw() const;
   [[nodiscard]] std::map<QString, int> drawings() const;
 
   MainWindow& window_;

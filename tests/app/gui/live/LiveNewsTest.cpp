@@ -52,18 +52,6 @@ TEST_F(LiveNewsOfABoard, ADriftIsSaidOnceAndNoTareCallsItOver) {
   EXPECT_EQ(said.filter("Tared (mean of ").size(), 1);
 }
 
-TEST_F(LiveNewsOfABoard, ADriftIsLookedForAnewWhenTheSceneIsSeenAgain) {
-  ASSERT_TRUE(waitForFrames());
-  leaveAlone();
-  type<QDoubleSpinBox>("warming", "2");
-  ASSERT_TRUE(wait([&] { return page.host().status().driftRate_N_min > 0; }));
-  page.hide();
-  QTest::qWait(4000); // longer than frames may be missing
-  page.show();
-  ASSERT_TRUE(waitForFrames(30));
-  EXPECT_EQ(page.host().status().driftRate_N_min, 0) << "nobody has seen it for long enough";
-}
-
 TEST_F(LiveNewsOfABoard, AnotherNetworkIsLogged) {
   ASSERT_TRUE(waitForFrames());
   ASSERT_TRUE(wait([&] { return page.host().decoder().has_value(); }));

@@ -1,6 +1,7 @@
 // Recordings: made, ended, and played.
 
 #include "app/gui/live/recordings/RecordingName.h"
+#include "io/board/RecordingReader.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QCheckBox>
@@ -8,6 +9,7 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QListWidget>
+#include <QSignalSpy>
 #include <QSlider>
 
 namespace palp {
@@ -224,7 +226,8 @@ TEST_F(LiveRecording, WaitsForABoardThatIsOutAndSaysSoAndCanBeEnded) {
   EXPECT_TRUE(wait([&] { return find<QLabel>("liveTrust").text() == "none"; })) << "there is nothing to trust";
   const double before_s = page.host().recorded_s();
   EXPECT_GT(before_s, 0);
-  QTest::qWait(200);
+  QSignalSpy looked(&page, &LivePage::looked);
+  ASSERT_TRUE(wait([&] { return looked.count() >= 5; }));
   EXPECT_EQ(page.host().recorded_s(), before_s) << "a board that is out is not recorded";
   click("plug");
   ASSERT_TRUE(wait([&] { return page.host().status().recording; }));
