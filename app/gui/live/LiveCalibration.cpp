@@ -3,6 +3,7 @@
 #include "app/gui/live/panels/CalibrationWords.h"
 #include "app/gui/live/panels/KnownLoad.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/PushButton.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "io/DecoderFile.h"
@@ -138,7 +139,7 @@ QWidget* LiveCalibration::buildFrames() {
 QWidget* LiveCalibration::buildFit() {
   auto* box = new QGroupBox(tr("Refined network"));
   auto* column = new QVBoxLayout(box);
-  report_ = new QLabel;
+  report_ = markupLabel();
   report_->setObjectName("calibrationReport");
   report_->setWordWrap(true);
   report_->setAlignment(Qt::AlignTop);
