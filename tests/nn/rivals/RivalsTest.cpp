@@ -147,7 +147,9 @@ TEST(RecursiveLeastSquares, ForgettingFollowsAChange) {
 TEST(RelativeError, IsThePapersEquationWithAndWithoutFloor) {
   const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
   const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
-  const PredictionError error = predictionError(predicted, truth, Eigen::VectorXd::Constant(1, 6));
+  Eigen::VectorXd range(1);
+  range << 6;
+  const PredictionError error = predictionError(predicted, truth, range);
   EXPECT_EQ(error.floor, 0.05);
   EXPECT_NEAR(error.eq13Percent(0), (10 + 0 + 100) / 3.0, 1e-9);
   EXPECT_NEAR(error.eq13FlooredPercent(0), (10 + 0 + 20) / 3.0, 1e-9);

@@ -126,14 +126,14 @@ TEST(TouchablePoints, OfABallBelowTheFaceAreThoseItPassedOnItsWay) {
   MeshOptions options;
   options.mapped = {{24, 24, 1}};
   const Mesh mesh = sensorMesh(design, options);
-  const auto count = [&](double depth_mm, double margin) {
+  const auto touchable = [&](double depth_mm, double margin) {
     LoadCase load;
     load.indenters = {{IndenterShape::Sphere, 1.1, 0, {6, 6}, 0, Motion{depth_mm, {0, 0}}}};
     return touchablePoints(mesh, design, {load}, margin).size();
   };
-  EXPECT_EQ(count(1.1, 1), 13U) << "as wide as the ball";
-  EXPECT_EQ(count(2.1, touchableMargin), 13U);
-  EXPECT_EQ(count(0.8, touchableMargin * widerMargin), 13U);
+  EXPECT_EQ(touchable(1.1, 1), 13U) << "as wide as the ball";
+  EXPECT_EQ(touchable(2.1, touchableMargin), 13U);
+  EXPECT_EQ(touchable(0.8, touchableMargin * widerMargin), 13U);
 }
 
 const Motion kAMillimetreDeep{1, {0, 0}}, kSlidByAMillimetre{0.6, {1, 0}};
