@@ -2,6 +2,7 @@
 #include "app/gui/document/Document.h"
 #include "app/gui/document/Recovery.h"
 #include "app/gui/jobs/NetworkSession.h"
+#include "app/gui/project/FileKind.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/window/Application.h"
@@ -16,6 +17,7 @@
 #include "model/base/Error.h"
 
 #include <QCommandLineParser>
+#include <QFileInfo>
 #include <QScreen>
 #include <QTimer>
 
@@ -82,12 +84,21 @@ Wish parse(const QApplication& application) {
           parser.isSet(costs), meshOf(parser.value(size), parser.value(mapped))};
 }
 
+/// Other files of ours are opened by the window. What cannot be read counts, so that its reader says why.
+bool holdsAProject(const QString& file) {
+  const QFileInfo info(file);
+  if (!info.isFile() || !info.isReadable()) return true;
+  const palp::FileKind kind = palp::fileKind(file);
+  return kind == palp::FileKind::Project || kind == palp::FileKind::Design;
+}
+
 int run(palp::Application& application) {
   const Wish wish = parse(application);
   palp::Project project = palp::exampleProject();
   const bool unattended = wish.costs || !wish.snapshot.isEmpty();
-  bool readable = !wish.file.isEmpty();
+  bool readable = !wish.file.isEmpty() && (unattended || holdsAProject(wish.file));
   try {
+    if (readable && unattended) palp::requireKind(wish.file, palp::FileKind::Design);
     if (readable) project = palp::loadProject(wish.file.toStdString(), project);
   } catch (const palp::Error& error) {
     if (unattended) throw;

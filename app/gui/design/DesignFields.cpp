@@ -1,6 +1,7 @@
 #include "app/gui/design/DesignFields.h"
 
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/UnclearComma.h"
 #include "model/base/Text.h"
 
 #include <QObject>
@@ -51,6 +52,7 @@ QString goOn(std::vector<double>& values, double last) {
 }
 
 QString setList(std::vector<double>& target, const QString& words) {
+  if (const QString unclear = unclearComma(words); !unclear.isEmpty()) return unclear;
   std::vector<double> values;
   bool evenly = false; // "..." stood before
   for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {

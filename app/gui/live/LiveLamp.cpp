@@ -63,6 +63,8 @@ LiveLampState LiveWatch::state(const LiveHost& host, bool seen) const {
     return {LiveLampState::Kind::Alarm, recording.isEmpty() ? words : words + "; " + recording};
   }
   if (!recording.isEmpty()) return {LiveLampState::Kind::Records, recording};
+  if (!seen && !status.recordingFailure.empty()) // in the scene itself the panel has the reason
+    return {LiveLampState::Kind::Alarm, QObject::tr("Nothing is recorded any more: %1").arg(file)};
   const QString source = QString::fromStdString(status.source);
   const QString state = QString::fromLatin1(name(status.state));
   if (!seen && !host.worksHidden() && status.connections > 0 && !host.replaying())

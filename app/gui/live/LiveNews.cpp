@@ -3,6 +3,7 @@
 #include "io/board/HostClock.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palp {
 
@@ -63,6 +64,9 @@ QStringList LiveNews::take(const LiveHost& host) {
     if (!network_.isEmpty() && network != network_) news << QObject::tr("Network in use: %1.").arg(network);
     network_ = network;
   }
+  const QString failure = QString::fromStdString(host.status().recordingFailure);
+  if (failure != std::exchange(recordingFailure_, failure) && !failure.isEmpty())
+    news << QObject::tr("Nothing is recorded any more: %1.").arg(failure);
   if (!host.replaying()) takeSource(host, news);
   return news;
 }

@@ -27,6 +27,7 @@ private:
   double freshSince_s_ = 0;                 ///< host clock
   std::shared_ptr<const Tare> tare_;
   QString network_;
+  QString recordingFailure_;
 };
 
 /// What the drift of a sensor asks for, in a sentence; empty where it asks for nothing.

@@ -3,13 +3,14 @@
 #include "app/gui/project/Command.h"
 #include "app/gui/project/ExportLines.h"
 #include "io/AtomicFile.h"
+#include "model/base/Text.h"
 
 namespace palp {
 
 namespace {
 
 QString exactNumber(double value) {
-  return QString::number(value, 'g', 17);
+  return QString::fromStdString(text(value));
 }
 
 QString exactTriple(const Eigen::Vector3d& values) {

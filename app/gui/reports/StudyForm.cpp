@@ -6,6 +6,7 @@
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/KeepRoom.h"
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/UnclearComma.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
@@ -284,12 +285,18 @@ void StudyForm::numberAxes() {
   axesArea_->setFixedHeight((std::min(static_cast<int>(axes_.size()), kMostAxes) + 1) * row_px);
 }
 
+StudyAxis StudyForm::typedAxis(const Axis& axis) {
+  const QString key = axis.key->currentText().trimmed(), values = axis.values->text();
+  const QString unclear = values.contains('[') ? QString() : unclearComma(values); // JSON has no decimal commas
+  if (!unclear.isEmpty()) throw Error((key + ": " + unclear).toStdString());
+  return studyAxis(key.toStdString(), values.toStdString());
+}
+
 StudyPlan StudyForm::plan() const {
   const bool ofFile = base_->currentIndex() == kOfTheFile;
   StudyPlan plan;
   plan.design = ofFile ? opened_->design : toJson(workbench_.project().design);
-  for (const Axis& axis : axes_)
-    plan.axes.push_back(studyAxis(axis.key->currentText().trimmed().toStdString(), axis.values->text().toStdString()));
+  for (const Axis& axis : axes_) plan.axes.push_back(typedAxis(axis));
   plan.hypercube = plan_->currentIndex() == kHypercube ? points_->value() : 0;
   plan.seed = static_cast<std::uint64_t>(seed_->value());
   for (std::size_t i = 0; i < quantities_.size(); ++i)

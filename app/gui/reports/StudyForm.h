@@ -55,6 +55,8 @@ private:
   QWidget* buildResult();
   void addAxis(const QString& key, const QString& values);
   void removeAxis(const QWidget* row);
+  /// Throws Error where its values are not a range or a list, or a comma of theirs is unclear.
+  static StudyAxis typedAxis(const Axis& axis);
   void numberAxes();
   /// Ten per cent to both sides of what the design has.
   [[nodiscard]] QString proposal(const QString& key) const;

@@ -8,6 +8,7 @@
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/UnclearComma.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -43,10 +44,10 @@ QString lineEndText(const std::array<double, 3>& place) {
   return numbers.join(", ");
 }
 
-/// Three numbers with commas between them.
+/// Three numbers with commas and blanks between them.
 std::optional<std::array<double, 3>> placeOf(const QString& words) {
   const QStringList parts = words.split(',');
-  if (parts.size() != 3) return {};
+  if (parts.size() != 3 || !unclearComma(words).isEmpty()) return {};
   std::array<double, 3> place{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = typedNumber(parts[static_cast<int>(k)]);

@@ -36,7 +36,7 @@ LiveWorker::LiveWorker(LiveOptions options, TakeFrame take) : options_(std::move
 }
 
 void LiveWorker::step() {
-  if (idle_ && !writer_) return rest();
+  if (idle_ && !records()) return rest();
   const bool sought = options_.replay && options_.replay->sought();
   if (status_.state == LiveState::Ended && source_ && sought) status_.state = LiveState::Streaming;
   if (status_.state == LiveState::Ended) return std::this_thread::sleep_for(kReadTimeout / 10);
@@ -107,7 +107,7 @@ void LiveWorker::connect(std::unique_ptr<ReportSource> source) {
     tare_ = options_.tareOf ? options_.tareOf(source_->info()) : nullptr;
     makeDecoder();
   }
-  if (writer_ && !sameBoard) {
+  if (records() && !sameBoard) {
     endRecording();
     status_.recordingFailure = "the recording ended because another board was connected";
   }
@@ -290,9 +290,9 @@ LiveStatus LiveWorker::status() {
   status_.restName = status_.tareOfRecording ? "the tare of the recording" : rest_.name();
   status_.alarm = alarm_.words();
   status_.noise = decoder_ ? decoder_->noise() : 0;
-  status_.recording = writer_ && source_; // never "recording" while the board is gone
-  status_.recordingWaits = writer_ && !source_;
   if (writer_) statusOfRecording();
+  status_.recording = records() && source_; // never "recording" while the board is gone
+  status_.recordingWaits = records() && !source_;
   return status_;
 }
 

@@ -61,6 +61,8 @@ private:
   [[nodiscard]] double recordedTime_s() const;
   void endRecording();
   void statusOfRecording();
+  /// A recording was begun and neither ended nor failed. A failed one counts what it lacks until the next one begins.
+  [[nodiscard]] bool records() const { return writer_ && status_.recordingFailure.empty(); }
   void watch(const DecodedForces& forces);
   void measureRates(double now_s);
   void restartRates(double now_s);

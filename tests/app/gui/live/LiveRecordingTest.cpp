@@ -2,6 +2,7 @@
 
 #include "app/gui/live/recordings/RecordingName.h"
 #include "io/board/RecordingReader.h"
+#include "tests/app/gui/FullDisk.h"
 #include "tests/app/gui/live/LiveOperatorFixture.h"
 
 #include <QCheckBox>
@@ -32,6 +33,27 @@ TEST_F(LiveRecording, ASecondRecordingTakesTheNextFreeNameByItself) {
   EXPECT_EQ(QDir(folder.path()).entryList({"touch*.palprec"}).size(), 3);
   EXPECT_NO_THROW(RecordingReader(second.toStdString()));
   EXPECT_FALSE(said.join(' ').contains("--"));
+}
+
+TEST_F(LiveRecording, ThatAFullDiskEndsIsOneNoMoreAndIsSaidInEveryScene) {
+  ASSERT_TRUE(waitForFrames());
+  recordTo(folder.filePath("touch.palprec"));
+  ASSERT_TRUE(startsToRecord());
+  {
+    const FullDisk full(2000); // of which the head takes a part
+    EXPECT_TRUE(wait([&] { return !page.host().recording(); })) << "it says that it records";
+  }
+  EXPECT_TRUE(wait([&] { return said.join(' ').contains("Nothing is recorded any more: "); }));
+  EXPECT_TRUE(isRed("recorded"));
+  EXPECT_EQ(find<QPushButton>("record").text(), "Record");
+  EXPECT_NE(page.lamp().kind, LiveLampState::Kind::Records);
+  page.hide();
+  EXPECT_TRUE(wait([&] { return page.lamp().words == "Nothing is recorded any more: touch.palprec"; }))
+      << page.lamp().words.toStdString();
+  page.show();
+  ASSERT_TRUE(startsToRecord()) << "there is room again";
+  EXPECT_EQ(page.host().status().recordingFailure, "");
+  ASSERT_TRUE(stopsToRecord());
 }
 
 TEST(RecordingName, IsDatedOnceAndCountedWhereTheDateIsThereToo) {

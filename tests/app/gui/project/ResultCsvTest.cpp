@@ -60,6 +60,9 @@ TEST(ResultCsv, SaysTheLoadAndTheDesignItWasComputedFrom) {
   EXPECT_TRUE(text.contains("# palp, share of the load 0.5\n"));
   EXPECT_TRUE(text.contains("# load on area 1: (0.5, 0.25, -6) N\n"));
   EXPECT_TRUE(text.contains("# load on a disc at (10, 12) mm with radius 2.5 mm: (0, 0, -1) N\n"));
+  LoadCase third = kLoad;
+  third.areas[0].force_N.y() = 0.3; // which has no exact binary number
+  EXPECT_TRUE(sourceLines({design, third}).contains("# load on area 1: (0.5, 0.3, -6) N\n"));
   const QString json = text.section("# design ", 1).section('\n', 0, 0);
   EXPECT_EQ(parseDesign(json.toStdString(), "table"), design);
 }

@@ -83,7 +83,8 @@ TEST_F(StudyFormTest, RunsAStudyOfTheProjectsDesignAndTakesOneOfItsDesignsOver) 
 TEST_F(StudyFormTest, WhatIsNoStudyIsSaidInRedAndCannotBeRun) {
   for (const auto& [words, said] :
        {std::pair{"4.5..5.5", "count"}, std::pair{"4.5..x 3", "expected a range"}, std::pair{"", "expected a range"},
-        std::pair{"4.5, , 5", "block_mm.2"}, std::pair{"-1..5 x 3 log", "logarithmic"}}) {
+        std::pair{"4.5, , 5", "block_mm.2"}, std::pair{"-1..5 x 3 log", "logarithmic"}, std::pair{"4,5", "unclear"},
+        std::pair{"4,5..6 x 3", "unclear"}}) {
     type("studyValues0", "4.5, 5.5");
     ASSERT_TRUE(find<QPushButton>("runReport").isEnabled());
     auto& line = find<QLineEdit>("studyValues0");

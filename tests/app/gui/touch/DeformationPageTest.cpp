@@ -174,6 +174,10 @@ TEST_F(DeformationPageTest, RefusesALineThatLeavesTheBlock) {
   settle();
   EXPECT_TRUE(find<ChartView>("linePlot").chart().series.empty());
   EXPECT_NE(find<ChartView>("linePlot").chart().title.find("leaves the block"), std::string::npos);
+  end.selectAll();
+  QTest::keyClicks(&end, "1,5, 2"); // and not x 1, y 5, z 2
+  QTest::keyClick(&end, Qt::Key_Return);
+  EXPECT_NE(find<ChartView>("linePlot").chart().title.find("three numbers"), std::string::npos);
 }
 
 TEST_F(DeformationPageTest, WritesTheLoadPathAsASeriesOfPictures) {

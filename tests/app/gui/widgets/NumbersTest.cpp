@@ -1,4 +1,5 @@
 #include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/UnclearComma.h"
 #include "io/StudyFile.h"
 #include "model/TouchRange.h"
 #include "model/base/NumberText.h"
@@ -8,6 +9,7 @@
 
 #include <QClipboard>
 #include <QFile>
+#include <QLabel>
 #include <QSpinBox>
 #include <QStatusBar>
 #include <QToolTip>
@@ -150,6 +152,18 @@ TEST_F(Numbers, FieldsAndListsTakeACommaAsTheyDocumentIt) {
     type(noise, words);
     EXPECT_NEAR(noise.value(), percent, 1e-12) << words;
   }
+}
+
+// "1,5" in a list was taken for 1 and 5.
+TEST_F(Numbers, ADecimalCommaInAListIsRefusedAndSeparatesNothing) {
+  for (const char* clear : {"", "1.5", "1, 5", "1.5,4.5", "0.5,5", "5,0.5", "1, 2,..., 9", "3..6 x 4", "1,"})
+    EXPECT_EQ(unclearComma(clear), "") << clear;
+  for (const char* unclear : {"1,5", "2, 1,5", "1,5 4.5", "3,5..6 x 2", "3..6,5 x 2", "1,4,7"})
+    EXPECT_TRUE(unclearComma(unclear).contains(" is unclear: write ")) << unclear;
+  EXPECT_EQ(unclearComma("3, 14,25"), "\"14,25\" is unclear: write 14.25 for one number, or \"14, 25\" for two");
+  window.showScene("design");
+  type(find<QLineEdit>("upper_layer.row_wire_y_mm"), "1,5, 4,5");
+  EXPECT_TRUE(find<QLabel>("upper_layer.row_wire_y_mm problem").text().contains("write 1.5 for one"));
 }
 
 } // namespace

@@ -94,5 +94,20 @@ TEST(Start, ABadFileIsSaidAndTheWindowOpensAllTheSame) {
   studio.waitForFinished();
 }
 
+TEST(Start, AnotherFileOfPalpIsNoBrokenDesign) {
+  const QTemporaryDir home;
+  QFile samples(home.filePath("a.csv"));
+  ASSERT_TRUE(samples.open(QIODevice::WriteOnly));
+  samples.write("# palp_samples: 1\n");
+  samples.close();
+  QProcess studio;
+  studio.start(QCoreApplication::applicationDirPath() + "/palp-studio",
+               {"--snapshot", home.filePath("a.png"), samples.fileName()});
+  ASSERT_TRUE(studio.waitForFinished(kPatience_ms));
+  EXPECT_EQ(studio.exitCode(), 2);
+  const QByteArray said = studio.readAllStandardError();
+  EXPECT_TRUE(said.contains("a.csv: is samples, not a design")) << said.toStdString();
+}
+
 } // namespace
 } // namespace palp
