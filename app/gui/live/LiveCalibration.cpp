@@ -48,7 +48,8 @@ LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(pare
   row->addWidget(buildLabel());
   row->addWidget(buildFrames(), 2);
   row->addWidget(buildFit(), 3);
-  connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
+  for (const JobRunner* runner : {&runner_, &writer_})
+    connect(runner, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
     displayFrames();
@@ -121,11 +122,7 @@ QWidget* LiveCalibration::buildFrames() {
   connect(saveFrames_, &QPushButton::clicked, this, [this] {
     const QString file =
         askFileToSave(this, tr("Labelled frames"), "frames.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
-    if (file.isEmpty()) return;
-    guarded([&] {
-      frames_.save(file.toStdString());
-      unsaved_ = false;
-    });
+    if (!file.isEmpty()) saveFrames(file);
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
     frames_.remove(table_->currentRow());
@@ -163,9 +160,29 @@ QWidget* LiveCalibration::buildFit() {
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
     const QString file = askFileToSave(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
-    if (!file.isEmpty()) guarded([&] { writeNetwork(calibration_->decoder, file.toStdString()); });
+    if (!file.isEmpty() && calibration_) saveNetwork(file);
   });
   return box;
+}
+
+/// In turn with other saves: the frames that are here now.
+void LiveCalibration::saveFrames(const QString& file) {
+  const auto work = [this, file, saved = shown_, frames = frames_](const auto&, JobProgress&) {
+    frames.save(file.toStdString());
+    return [this, file, saved] {
+      if (saved == shown_) unsaved_ = false; // no others came meanwhile
+      emit message(tr("Saved the labelled frames to %1.").arg(file));
+    };
+  };
+  writer_.start(tr("Saving labelled frames"), work, JobRunner::Loss::Work);
+}
+
+void LiveCalibration::saveNetwork(const QString& file) {
+  const auto work = [this, file, decoder = calibration_->decoder](const auto&, JobProgress&) {
+    writeNetwork(decoder, file.toStdString());
+    return [this, file] { emit message(tr("Saved the refined network to %1.").arg(file)); };
+  };
+  writer_.start(tr("Saving the refined network"), work, JobRunner::Loss::Work);
 }
 
 void LiveCalibration::guarded(const std::function<void()>& act) {

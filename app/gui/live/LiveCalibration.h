@@ -27,6 +27,8 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
+  /// Saves frames and networks, in the order in which they were asked for.
+  [[nodiscard]] JobRunner& writer() { return writer_; }
   /// The labelled frames of the project, in place of those that are here where they are others.
   void display(const std::shared_ptr<const BoardFrames>& frames);
   /// The frames that are here, as a project keeps them; null: none.
@@ -50,6 +52,8 @@ private:
   QWidget* buildFrames();
   QWidget* buildFit();
   void load(const std::filesystem::path& file);
+  void saveFrames(const QString& file);
+  void saveNetwork(const QString& file);
   void collect();
   [[nodiscard]] bool mayCollect();
   [[nodiscard]] bool mayUse();
@@ -84,6 +88,7 @@ private:
   QPushButton* saveNetwork_ = nullptr;
   QLabel* report_ = nullptr;
   JobRunner runner_;
+  JobRunner writer_{JobRunner::Orders::Each};
 };
 
 } // namespace palp

@@ -319,7 +319,8 @@ void LivePage::displayProject() {
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(), &calibration_->runner(), &host_.loader(), &host_.simulator(), &exporter_};
+  return {&twin_->runner(), &calibration_->runner(), &calibration_->writer(),
+          &host_.loader(),  &host_.simulator(),      &exporter_};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {

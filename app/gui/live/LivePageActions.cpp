@@ -128,7 +128,8 @@ QString LivePage::recordingEnds() const {
 QStringList LivePage::lossesByClosing() const {
   QStringList losses;
   if (host_.recording()) losses << recordingEnds();
-  if (const QString exported = exporter_.loss(); !exported.isEmpty()) losses << exported;
+  for (const JobRunner* writer : std::initializer_list<const JobRunner*>{&exporter_, &calibration_->writer()})
+    if (const QString lost = writer->loss(); !lost.isEmpty()) losses << lost;
   if (const int frames = unsavedFrames(); frames > 0)
     losses << tr("%1 labelled frames of this board are not saved. Use Save... under Calibration to keep them.")
                   .arg(frames);

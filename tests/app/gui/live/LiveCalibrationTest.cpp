@@ -161,7 +161,10 @@ TEST_F(LiveCalibrating, SaysThatTheNetworkSeesTheLoadOnAnotherArea) {
       << find<QLabel>("calibrationProblem").text().toStdString();
   answerFileDialog(folder.filePath("frames.csv"));
   click("saveFrames");
-  EXPECT_EQ(page.unsavedFrames(), 0);
+  EXPECT_TRUE(calibration().writer().running()) << "off the window's thread";
+  EXPECT_EQ(page.unsavedFrames(), 2) << "they are in no file yet";
+  EXPECT_TRUE(wait([&] { return page.unsavedFrames() == 0; }));
+  EXPECT_EQ(said.filter("Saved the labelled frames to ").size(), 1) << said.join('|').toStdString();
 }
 
 TEST_F(LiveCalibrating, AsksWhereTheLabelIsClearlyNotWhatPresses) {
