@@ -145,11 +145,10 @@ TEST(RecursiveLeastSquares, ForgettingFollowsAChange) {
 }
 
 TEST(RelativeError, IsThePapersEquationWithAndWithoutFloor) {
-  const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
-  const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
-  Eigen::VectorXd range(1);
-  range << 6;
-  const PredictionError error = predictionError(predicted, truth, range);
+  Eigen::MatrixXd truth(1, 3), predicted(1, 3);
+  truth << 1, -2, 0.01;
+  predicted << 1.1, -2, 0.02;
+  const PredictionError error = predictionError(predicted, truth, Eigen::VectorXd::Constant(1, 6));
   EXPECT_EQ(error.floor, 0.05);
   EXPECT_NEAR(error.eq13Percent(0), (10 + 0 + 100) / 3.0, 1e-9);
   EXPECT_NEAR(error.eq13FlooredPercent(0), (10 + 0 + 20) / 3.0, 1e-9);
@@ -158,8 +157,9 @@ TEST(RelativeError, IsThePapersEquationWithAndWithoutFloor) {
 }
 
 TEST(RelativeError, InPercentIsTheSameInAnyUnitOfForce) {
-  const Eigen::MatrixXd truth = (Eigen::MatrixXd(1, 3) << 1, -2, 0.01).finished();
-  const Eigen::MatrixXd predicted = (Eigen::MatrixXd(1, 3) << 1.1, -2, 0.02).finished();
+  Eigen::MatrixXd truth(1, 3), predicted(1, 3);
+  truth << 1, -2, 0.01;
+  predicted << 1.1, -2, 0.02;
   const Eigen::VectorXd range = Eigen::VectorXd::Constant(1, 6);
   const double own = predictionError(predicted, truth, range).eq13FlooredPercent(0);
   for (const double unit : {1e-3, 10., 1e3})
