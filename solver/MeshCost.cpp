@@ -1,5 +1,6 @@
 #include "solver/MeshCost.h"
 
+#include "model/base/NumberText.h"
 #include "model/base/Text.h"
 #include "solver/mesh/GradedTets.h"
 
@@ -20,7 +21,7 @@ constexpr double kLong_s = 20, kLarge_MB = 2000;
 /// In two digits.
 std::string roughly(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return text(std::round(value / unit) * unit);
+  return withDigits(std::round(value / unit) * unit, 6);
 }
 
 bool isLarge(const MeshCost& cost) {

@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"\"rate_ohm_per_mm\": 1000",
              "\"law\": \"field\", \"resistivity_ohm_mm\": 1, \"electrode_radius_mm\": 0.2, \"contact_ohm_mm2\": 0, "
              "\"wire_ohm\": 0, \"readout\": \"grounded\"",
-             {"resistance.readout is \"grounded\"", "virtual_ground"}},
+             {"resistance.readout: got \"grounded\"", "virtual_ground"}},
         Slip{"\"x\": [-1, 1]", "\"x\": [-1]", {"force_range_N.x", "2 numbers"}},
         Slip{"\"rows\": 2", "\"rows\": 2, \"rows\": 3", {"\"rows\" appears twice"}},
         Slip{"] } }\n", "", {"not valid JSON"}}));

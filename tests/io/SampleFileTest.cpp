@@ -50,7 +50,7 @@ TEST(SampleFile, SaysTheReadOutWhereThereIsOne) {
   std::string text = readFile(folder / "a.csv");
   text.replace(text.find("others_at_half"), 14, "others_at_rest");
   put(folder / "b.csv", text);
-  EXPECT_NE(refusal([&] { loadSamples(folder / "b.csv"); }).find("readout: \"others_at_rest\""), std::string::npos);
+  EXPECT_NE(refusal([&] { loadSamples(folder / "b.csv"); }).find("readout: got \"others_at_rest\""), std::string::npos);
 }
 
 TEST(SampleFile, NamesItsColumnsWithTheirUnits) {
@@ -111,8 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
         FileSlip{"Infinite", replaced("0,0.25", "0,inf"), {"line 16", "inf", "finite"}},
         FileSlip{"TooLarge", replaced("0,0.25", "0,1e999"), {"line 16", "1e999"}},
         FileSlip{"Empty", replaced("0,0.25", "0,"), {"line 16", "field 2"}},
-        FileSlip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "21 fields", "22"}},
-        FileSlip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area 2", "0 to 1"}},
+        FileSlip{"FieldMissing", replaced("0,0.25,", "0,"), {"line 16", "fields: got 21", "22"}},
+        FileSlip{"AreaUnknown", replaced("\n0,0.25", "\n2,0.25"), {"line 16", "area: got 2", "0 to 1"}},
         FileSlip{"AreaOfAllInAFileOfSingleAreas",
                  replaced("\n0,0.25", "\n-1,0.25"),
                  {"line 16", "area: got -1", "expected 0 to 1"}},
@@ -122,15 +122,15 @@ INSTANTIATE_TEST_SUITE_P(
         FileSlip{"HeadLineTwice", replaced("# seed: 7\n", "# seed: 7\n# seed: 8\n"), {"seed appears twice"}},
         FileSlip{"HeadKeyUnknown", replaced("# seed: 7\n", "# seed: 7\n# salt: 8\n"), {"unknown key", "salt"}},
         FileSlip{"HeadNumberBroken", replaced("# seed: 7", "# seed: -7"), {"seed", "-7"}},
-        FileSlip{"CountOfZero", replaced("area_count: 2", "area_count: 0"), {"area_count: 0", "1 or more"}},
+        FileSlip{"CountOfZero", replaced("area_count: 2", "area_count: 0"), {"area_count: got 0", "1 or more"}},
         FileSlip{"CountsBeyondAllReason", // their product is no int, and their names would fill the memory
                  [](std::string& text) {
                    replaced("row_wires: 2", "row_wires: 100000")(text);
                    replaced("electrodes_per_row_wire: 2", "electrodes_per_row_wire: 100000")(text);
                  },
-                 {"line 15", "22 columns", "30000300004"}},
+                 {"line 15", "columns: got 22", "30000300004"}},
         FileSlip{"KindUnknown", replaced("full solves", "guess"), {"guess", "full solves or surrogate"}},
-        FileSlip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version 2"}},
+        FileSlip{"Newer", replaced("palp_samples: 1", "palp_samples: 2"), {"version: got 2"}},
         FileSlip{"ColumnRenamed", replaced("fy_N", "fy_kN"), {"column 3", "fy_kN", "fy_N"}},
         FileSlip{"ColumnMissing", replaced(",R_r1_c2_ohm", ""), {"columns", "22"}},
         FileSlip{"NoHeadAtAll", [](std::string& text) { text.erase(0, text.find("area,")); }, {"palp_samples"}}),

@@ -26,7 +26,7 @@ TEST(LoadCase, ActsOnTheDesignWhereItsPartsLieOnIt) {
 TEST(LoadCase, NamesTheAreaThatIsNotThere) {
   for (const int area : {-1, 6, 1000}) {
     const std::string sentence = problemOf({{{area, {0, 0, -1}}}, {}});
-    EXPECT_NE(sentence.find("area " + std::to_string(area)), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("area: got " + std::to_string(area)), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("0 to 5"), std::string::npos) << sentence;
   }
 }

@@ -6,6 +6,7 @@
 #include "app/cli/TouchOption.h"
 #include "app/study/reports/ReportComputations.h"
 #include "app/study/reports/layout/FieldResponse.h"
+#include "app/study/reports/map/TouchMap.h"
 #include "model/base/Text.h"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ Exit run(ReportArguments& arguments, Session& session) {
     if (arguments.kind != "map" && arguments.kind != "layout")
       throw UsageError("--touch: not for report " + arguments.kind + "; expected report map or layout");
     request.touches = arguments.touches.range(request.design);
+    (void)mapRequest(*request.touches, request.design, 1e-4, {2, 2}, "report " + arguments.kind); // refuses
   }
   sayMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
   request.threads = session.threads;

@@ -65,7 +65,7 @@ TEST(StudyCommand, MakesOneRowADesignAndSaysWhichCannotBe) {
   const std::string table = readAll(folder / "out" / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7) << table;
   EXPECT_TRUE(table.starts_with("design,upper_layer.z_mm,block_mm.2,problem,bound_fx_percent,")) << table;
-  EXPECT_NE(table.find("\n1,9,4.6,upper_layer.z_mm: "), std::string::npos) << "wires above the block: " << table;
+  EXPECT_NE(table.find("\n1,9,4.6,\"upper_layer.z_mm: "), std::string::npos) << "wires above the block: " << table;
   EXPECT_NE(table.find("\n2,4,4.6,,"), std::string::npos) << table;
   EXPECT_NE(readAll(folder / "out" / "report" / "report.html").find("Designs without a result"), std::string::npos);
 }

@@ -75,7 +75,7 @@ TEST(ListenTruth, DoubtIsPrinted) {
   EXPECT_EQ(outcome.exit, 0) << all(outcome);
   EXPECT_FALSE(says(outcome.output, " 0 of them implausible")) << all(outcome);
   EXPECT_TRUE(says(outcome.output, "of them implausible (")) << all(outcome);
-  EXPECT_TRUE(says(outcome.output, "N  doubted: ")) << all(outcome);
+  EXPECT_TRUE(says(outcome.output, "N  implausible: ")) << all(outcome);
 }
 
 /// The network that ships with Palp as one that was trained for another design.
@@ -170,7 +170,7 @@ TEST(ListenTruth, ATareUnderALoadIsRefused) {
                                        "--tare",     "20",     "--frames", "40"};
   const Outcome refused = listen(words);
   EXPECT_EQ(refused.exit, 2) << all(refused);
-  EXPECT_TRUE(says(refused.errors, "--tare: the network reads (")) << all(refused);
+  EXPECT_TRUE(says(refused.errors, "--tare: the network predicts a steady (")) << all(refused);
   EXPECT_TRUE(says(refused.errors, "--force")) << all(refused);
   std::vector<std::string> anyway = words;
   anyway.emplace_back("--force");

@@ -107,7 +107,7 @@ TEST(Calibration, SaysThatALabelDoesNotBelongToItsFrame) {
   std::string all;
   for (const std::string& warning : warningsOf(wrong)) all += warning + "; ";
   EXPECT_NE(all.find("the model under these labels"), std::string::npos) << all;
-  EXPECT_NE(all.find("off by"), std::string::npos) << all;
+  EXPECT_NE(all.find("of their change apart"), std::string::npos) << all;
 }
 
 TEST(Calibration, SaysThatTheLabelsHaveTheOppositeSign) {

@@ -50,7 +50,7 @@ TEST(CrossTable, TellsEveryPairOfLawsWithItsErrorsAsReadAndScaledAtRest) {
   EXPECT_EQ(smallReport().figures.size(), 2U * 25 * 3);
   for (const char* line :
        {"\nlinear,Eq. (1),virtual_ground,as read,Fx,",
-        "\nrbf,virtual_ground,\"virtual_ground, radius 0.3 mm\",scaled at rest,Fz,", "\nsaying the mean,,,,Fy,"})
+        "\nrbf,virtual_ground,\"virtual_ground, radius 0.3 mm\",scaled at rest,Fz,", "\npredicting the mean,,,,Fy,"})
     EXPECT_NE(smallReport().csv.find(line), std::string::npos) << line;
 }
 
