@@ -26,10 +26,10 @@ protected:
     next.network.input = InputKind::Resistance;
     workbench.edit("a coarse mesh", next);
     choose("sampleKind", 1);
-    setNumber("touchRadiusMost", 9);
-    setNumber("touchRadiusLeast", 7);
-    setNumber("touchPressMost", 3);
-    setNumber("touchPressLeast", 1);
+    setNumber("touchRadiusMaximum", 9);
+    setNumber("touchRadiusMinimum", 7);
+    setNumber("touchPressMaximum", 3);
+    setNumber("touchPressMinimum", 1);
     auto& count = find<QSpinBox>("touchCount");
     count.setFocus();
     count.selectAll();
