@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/GotExpected.h"
+#include "model/base/NumberText.h"
 #include "model/base/Text.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactSteps.h"
@@ -170,12 +171,12 @@ std::string ContactSolver::whyHard(const ContactState& reached) const {
   for (std::size_t k = 0; k < indenters_.size(); ++k) {
     const Indenter& one = path_[now_].indenters[k];
     if (one.shape == IndenterShape::Flat && one.rim_mm < finest_mm)
-      return "; the pressure at a sharp rim is unbounded: the rim radius of " + text(one.rim_mm) +
+      return "; the pressure at a sharp rim is unbounded: the rim radius of " + withDigits(one.rim_mm, 6) +
              " mm is smaller than the mesh resolves (" + text(std::round(1000 * finest_mm) / 1000) +
              " mm); use a larger rim radius, a finer mesh or a smaller depth";
     const double depth_mm = -reached.translations_mm(2, static_cast<Eigen::Index>(k));
     if (isRound(one) && std::max(depth_mm, expected_[k].depth_mm) > one.radius_mm)
-      return "; the " + shapeName(one.shape) + " of radius " + text(one.radius_mm) +
+      return "; the " + shapeName(one.shape) + " of radius " + withDigits(one.radius_mm, 6) +
              " mm is pressed deeper than its radius, which distorts the elements below it; use a larger radius or a "
              "smaller depth";
   }
