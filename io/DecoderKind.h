@@ -102,7 +102,7 @@ inline constexpr std::array kDecoderTraits{
 constexpr const DecoderTraits& traits(DecoderKind kind) {
   for (const DecoderTraits& known : kDecoderTraits)
     if (known.kind == kind) return known;
-  return kDecoderTraits.front(); // not reached: the table below has one row for each kind
+  return kDecoderTraits.front(); // not reached: the table above has one row for each kind
 }
 
 inline constexpr NamedEnum kDecoderKinds("decoder", [] {

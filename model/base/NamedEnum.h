@@ -34,7 +34,7 @@ public:
   /// Throws Error with the names that are allowed.
   [[nodiscard]] Value value(const std::string& name) const {
     if (const auto found = find(name)) return *found;
-    throw Error(std::string(what_) + ": '" + name + "'; allowed is " + allowed());
+    throw Error(std::string(what_) + ": got '" + name + "', expected " + allowed());
   }
   /// "a, b or c".
   [[nodiscard]] std::string allowed() const {

@@ -7,6 +7,7 @@
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
+#include "nn/NetworkError.h"
 
 #include <algorithm>
 #include <cmath>
@@ -228,7 +229,13 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   followNoise(raw_ohm);
   decoded.resistances_ohm = frame.resistances_ohm.cwiseProduct(factor_);
   const Eigen::VectorXd readings_ohm = inputOf(decoded.resistances_ohm, decoder_->input);
-  const Prediction prediction = predicted(readings_ohm, readings);
+  Prediction prediction;
+  try {
+    prediction = predicted(readings_ohm, readings);
+  } catch (const NetworkError& undetermined) { // by the readings of this frame; the next one may have others
+    decoded.reason = undetermined.what();
+    return decoded;
+  }
   const Eigen::Index columns = decoder_->outputs() / 3;
   decoded.forces_N = prediction.forces_N.reshaped(3, columns);
   decoded.standardDeviation_N = prediction.standardDeviation_N.reshaped(3, columns);

@@ -25,7 +25,7 @@ TEST(NamedEnum, AnUnknownNameIsRefusedWithTheAllowedOnes) {
     static_cast<void>(kColours.value("blue"));
     FAIL();
   } catch (const Error& refusal) {
-    EXPECT_STREQ(refusal.what(), "colour: 'blue'; allowed is red or green");
+    EXPECT_STREQ(refusal.what(), "colour: got 'blue', expected red or green");
   }
 }
 

@@ -166,6 +166,15 @@ TEST(RelativeError, InPercentIsTheSameInAnyUnitOfForce) {
     EXPECT_NEAR(predictionError(unit * predicted, unit * truth, unit * range).eq13FlooredPercent(0), own, 1e-9);
 }
 
+TEST(RelativeError, AForceThatNeverVariesLeavesTheFloorToTheOthers) {
+  Eigen::MatrixXd truth(2, 2), predicted(2, 2);
+  truth << 0, 0, 0.001, -0.002;
+  predicted << 0, 0, 0.0011, -0.002;
+  const Eigen::VectorXd range = Eigen::Vector2d(0, 0.006); // newtons of a small sensor that is pushed along one axis
+  EXPECT_NEAR(predictionError(predicted, truth, range).floor, 0.006 / 120, 1e-15);
+  EXPECT_NEAR(predictionError(predicted, truth, range).eq13FlooredPercent(1), 5, 1e-9);
+}
+
 TEST(SpreadSweep, GoesThroughTheSpreadsAndStopsWhenAsked) {
   const SweepInput input{training.samples, training.targets, fresh.samples, fresh.targets, Eigen::Vector3d(2, 2, 6)};
   std::stop_source stop;

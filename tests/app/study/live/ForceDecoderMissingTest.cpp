@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <ostream>
 
 namespace palp {
@@ -110,6 +111,22 @@ TEST(ForceDecoder, ATareHoldsWithoutAColumnToo) {
   ASSERT_TRUE(decoder.tared());
   EXPECT_LT(decoder.noise(), 10 * kGood);
   EXPECT_TRUE(decoder.tare().rest_ohm.allFinite());
+}
+
+TEST(ForceDecoder, AFrameThatDoesNotDetermineTheForceSaysSoAndTheNextIsDecoded) {
+  VirtualStream stream = streamWith(noisy(kGood));
+  stream.board().faults().openColumns = {7};
+  Decoder network = decoderFor(kGood);
+  std::get<ForwardModel>(network.model).causeFactor(1) = std::numeric_limits<double>::quiet_NaN();
+  ForceDecoder decoder(network, stream.board().info(), paperDesign());
+  int frames = 0;
+  stream.run(3, [&](const BoardFrame& frame) {
+    const DecodedForces forces = decoder.decode(frame);
+    EXPECT_FALSE(forces.valid);
+    EXPECT_FALSE(forces.reason.empty());
+    ++frames;
+  });
+  EXPECT_EQ(frames, 3);
 }
 
 TEST(ForceDecoder, LessThanHalfOfTheReadingsGiveAReasonAndNoForces) {
