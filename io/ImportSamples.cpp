@@ -3,7 +3,7 @@
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
 #include "io/measured/ImportMap.h"
-#include "io/measured/MeasuredTable.h"
+#include "io/measured/ImportedRows.h"
 #include "io/samples/SampleWriter.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace palp {
 
@@ -21,164 +22,275 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where in a table the numbers of a sample stand, and how they become one.
-class RowReader {
-public:
-  RowReader(const ImportMap& map, MeasuredTable& table, const fs::path& mapFile, const fs::path& tableFile)
-      : map_(map), table_(table), mapFile_(mapFile), tableFile_(tableFile) {
-    add(map.resistances_ohm);
-    add(map.forces_N);
-    if (map.area) add({*map.area});
-    add(map.place_mm);
-    if (map.time_s) add({*map.time_s});
-  }
+constexpr std::size_t kProblemsShown = 10;
+constexpr std::size_t kFewForces = 10; ///< too few to judge their signs
+constexpr double kNearlyAll = 0.9;     ///< share of forces that pull
+constexpr double kAnotherUnit = 100;   ///< ratio of forces to the design's range
+constexpr double kManyLeftOut = 0.05;  ///< share of rows
 
-  /// Columns of the table that no sample takes.
-  [[nodiscard]] std::size_t unused() const {
-    std::vector<std::size_t> used = chosen_;
-    std::sort(used.begin(), used.end());
-    return table_.columns().size() - static_cast<std::size_t>(std::unique(used.begin(), used.end()) - used.begin());
-  }
-
-  bool read(SampleSet& block, Eigen::Index column) {
-    if (!table_.next(chosen_, values_)) return false;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      values_[i] = columns_[i].factor * values_[i] + columns_[i].offset;
-      if (!std::isfinite(values_[i])) table_.refuse("column " + columns_[i].name + " is too large in its unit");
-    }
-    const double* next = values_.data();
-    for (double& resistance : block.resistances_ohm.col(column)) {
-      if (!(*next > 0))
-        table_.refuse("column " + columns_[static_cast<std::size_t>(next - values_.data())].name + ": " +
-                      gotExpected(*next, " ohm", "above 0"));
-      resistance = *next++;
-    }
-    for (double& force : block.forces_N.col(column)) force = *next++;
-    block.area(column) = map_.area ? areaFrom(*next++) : 0;
-    if (!map_.place_mm.empty()) {
-      block.area(column) = areaAt(next[0], next[1]);
-      for (double& place : block.places_mm.col(column)) place = *next++;
-    }
-    if (map_.time_s) {
-      if (*next < time_s_)
-        table_.refuse("time: " + gotExpected(*next, " s", shortText(time_s_) + " s or later; sort the rows by time"));
-      time_s_ = block.times_s(0, column) = *next;
-    }
-    return true;
-  }
-
-private:
-  void add(const std::vector<ImportedColumn>& columns) {
-    const std::vector<std::string>& there = table_.columns();
-    for (const ImportedColumn& column : columns) {
-      const auto found = std::find(there.begin(), there.end(), column.name);
-      if (found == there.end())
-        throw Error(mapFile_.string() + ": column \"" + column.name + "\" is not in " + tableFile_.string() +
-                    ", whose columns are " + shownColumns());
-      if (std::find(found + 1, there.end(), column.name) != there.end())
-        throw Error(tableFile_.string() + ": column \"" + column.name + "\" appears twice");
-      chosen_.push_back(static_cast<std::size_t>(found - there.begin()));
-      columns_.push_back(column);
-    }
-  }
-
-  [[nodiscard]] std::string shownColumns() const {
-    std::string all;
-    for (const std::string& name : table_.columns()) {
-      if (all.size() > 100) return all + ", ...";
-      all += (all.empty() ? "" : ", ") + name.substr(0, 40);
-    }
-    return all;
-  }
-
-  [[nodiscard]] int areaFrom(double value) const {
-    if (!(value >= 0 && value < map_.areaCount) || value != std::floor(value))
-      table_.refuse("area: " + gotExpected(value, " (counted from 0)",
-                                           "a whole number from 0 to " + std::to_string(map_.areaCount - 1)));
-    return static_cast<int>(value);
-  }
-
-  [[nodiscard]] int areaAt(double x_mm, double y_mm) const {
-    if (!(x_mm >= 0 && x_mm <= map_.length_mm && y_mm >= 0 && y_mm <= map_.width_mm))
-      table_.refuse("position: " +
-                    gotExpected(shortText(x_mm) + ", " + shortText(y_mm) + " mm",
-                                "0 to " + shortText(map_.length_mm) + " and 0 to " + shortText(map_.width_mm) + " mm"));
-    const int i = std::min(map_.areaColumns - 1, static_cast<int>(x_mm / map_.length_mm * map_.areaColumns));
-    const int j = std::min(map_.areaRows - 1, static_cast<int>(y_mm / map_.width_mm * map_.areaRows));
-    return j * map_.areaColumns + i;
-  }
-
-  const ImportMap& map_;
-  MeasuredTable& table_;
-  const fs::path &mapFile_, &tableFile_;
-  std::vector<std::size_t> chosen_;
-  std::vector<ImportedColumn> columns_;
-  std::vector<double> values_;
-  double time_s_ = -std::numeric_limits<double>::infinity();
-};
-
-void requireFits(const ImportMap& map, const SensorDesign& design, const fs::path& mapFile) {
+void requireFits(const ImportMap& map, const SensorDesign& design, const std::string& mapFile) {
   const auto refuse = [&](const std::string& what, int found, int wanted) {
-    throw Error(mapFile.string() + ": " + std::to_string(found) + " " + what + "; the design has " +
-                std::to_string(wanted));
+    throw Error(mapFile + ": " + std::to_string(found) + " " + what + "; the design has " + std::to_string(wanted));
   };
   if (map.rowWires != design.rowWires()) refuse("row-wires", map.rowWires, design.rowWires());
   if (map.columnWires != design.columnWires()) refuse("column-wires", map.columnWires, design.columnWires());
   if (map.areaCount != design.areas.count()) refuse("areas", map.areaCount, design.areas.count());
+  if (map.law.kind == ReadingLaw::Kind::Signal)
+    throw Error(mapFile +
+                ": signals; the readings of a design are resistances (\"resistances\", with a unit or divider)");
 }
 
-SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::path& table) {
+std::string printableName(std::string name) {
+  for (char& letter : name)
+    if (letter < ' ' || letter > '~') letter = '_';
+  return name;
+}
+
+SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::path& table, bool runs) {
   SampleSet head;
   head.origin.designFingerprint = design != nullptr ? designFingerprint(*design) : map.fingerprint;
   if (design != nullptr && design->field() != nullptr) head.origin.readout = design->field()->readout;
   head.origin.seed = 0;
   head.origin.perArea = 0; // of no request
-  std::string name = table.filename().string();
-  for (char& letter : name)
-    if (letter < ' ' || letter > '~') letter = '_';
-  head.origin.mesh = kImportedFrom + name;
+  head.origin.mesh = kImportedFrom + printableName(table.filename().string());
+  head.origin.signals = map.law.kind == ReadingLaw::Kind::Signal;
   head.rowWires = map.rowWires;
   head.electrodesPerRowWire = design != nullptr ? design->electrodesPerRowWire() : 1;
   head.columnWires = map.columnWires;
   head.areaCount = map.areaCount;
-  head.times_s.resize(map.time_s ? 1 : 0, 0);
-  head.places_mm.resize(map.place_mm.empty() ? 0 : 2, 0);
+  head.times_s.resize(map.time ? 1 : 0, 0);
+  head.runs.resize(runs ? 1 : 0, 0);
+  head.places_mm.resize(map.places_mm.values.empty() ? 0 : 2, 0);
   head.forces_N.resize(3, 0);
-  head.resistances_ohm.resize(static_cast<Eigen::Index>(map.resistances_ohm.size()), 0);
+  head.resistances_ohm.resize(static_cast<Eigen::Index>(map.readings.values.size()), 0);
   return head;
 }
 
+/// The area that a row belongs to. `problem` says what is wrong with it, if anything.
+int areaOf(const ImportMap& map, const ImportedRow& row, std::string& problem) {
+  if (map.area) {
+    if (!(row.area >= 0 && row.area < map.areaCount) || row.area != std::floor(row.area))
+      problem = "area: " + gotExpected(row.area, " (counted from 0)",
+                                       "a whole number from 0 to " + std::to_string(map.areaCount - 1));
+    return problem.empty() ? static_cast<int>(row.area) : 0;
+  }
+  if (!(map.length_mm > 0)) return 0;
+  const double x_mm = row.place_mm.x(), y_mm = row.place_mm.y();
+  if (!(x_mm >= 0 && x_mm <= map.length_mm && y_mm >= 0 && y_mm <= map.width_mm)) {
+    problem =
+        "position: " + gotExpected(shortText(x_mm) + ", " + shortText(y_mm) + " mm",
+                                   "0 to " + shortText(map.length_mm) + " and 0 to " + shortText(map.width_mm) + " mm");
+    return 0;
+  }
+  const int i = std::min(map.areaColumns - 1, static_cast<int>(x_mm / map.length_mm * map.areaColumns));
+  const int j = std::min(map.areaRows - 1, static_cast<int>(y_mm / map.width_mm * map.areaRows));
+  return j * map.areaColumns + i;
+}
+
+/// Rows that cannot be used.
+class BadRows {
+public:
+  void add(const std::string& problem) {
+    if (shown_.size() < kProblemsShown) shown_.push_back(problem);
+    ++count_;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] const std::string& first() const { return shown_.front(); }
+
+  void refuse() const {
+    if (count_ == 0) return;
+    if (count_ == 1) throw Error(shown_.front());
+    std::string all = shown_.front();
+    const std::string table = all.substr(0, all.find(", ") + 2); // which the others need not repeat
+    for (std::size_t i = 1; i < shown_.size(); ++i)
+      all += "; " + (shown_[i].starts_with(table) ? shown_[i].substr(table.size()) : shown_[i]);
+    throw Error(all + (count_ > shown_.size() ? "; ..." : "") + ": " + std::to_string(count_) +
+                " rows cannot be used (--leave-out-bad-rows imports the others)");
+  }
+
+private:
+  std::vector<std::string> shown_;
+  std::size_t count_ = 0;
+};
+
+/// What the forces look like over all rows.
+struct ForceRanges {
+  std::size_t count = 0, pull = 0;
+  double largest_N = 0;
+
+  void add(const Eigen::Vector3d& force_N) {
+    ++count;
+    if (force_N.z() > 0) ++pull;
+    largest_N = std::max(largest_N, force_N.cwiseAbs().maxCoeff());
+  }
+
+  void warn(const ImportMap& map, const SensorDesign* design, std::vector<std::string>& warnings) const {
+    if (count >= kFewForces && !map.signsAreGiven &&
+        static_cast<double>(pull) > kNearlyAll * static_cast<double>(count))
+      warnings.push_back(
+          (pull == count ? "all " + std::to_string(count) : std::to_string(pull) + " of " + std::to_string(count)) +
+          " forces pull (Fz above 0); pressing is negative: \"signs\": [1, 1, -1] in the map?");
+    if (design == nullptr || !(largest_N > 0)) return;
+    const double range_N =
+        std::max(design->forceRange.low_N.cwiseAbs().maxCoeff(), design->forceRange.high_N.cwiseAbs().maxCoeff());
+    const double ratio = largest_N / range_N;
+    if (ratio > kAnotherUnit || ratio < 1 / kAnotherUnit)
+      warnings.push_back("the largest force, " + shortText(largest_N) + " N, is " + shortText(ratio) +
+                         " times the design's range: another unit?");
+  }
+};
+
+/// The samples of all runs, written block by block.
+class Import {
+public:
+  Import(const ImportRequest& request, ImportMap map, std::string mapFile)
+      : request_(request), map_(std::move(map)), mapFile_(std::move(mapFile)) {
+    const auto perRun = static_cast<std::size_t>(map_.tables);
+    if (request.tables.size() % perRun != 0)
+      throw Error(mapFile_ + ": tables: " +
+                  gotExpected(std::to_string(request.tables.size()), std::to_string(perRun) + " for each run"));
+    runs_ = request.tables.size() / perRun;
+    map_.leaveOutBadRows = map_.leaveOutBadRows || request.leaveOutBadRows;
+    if (request.design != nullptr) requireFits(map_, *request.design, mapFile_);
+    block_ = headOf(map_, request.design, request.tables.front(), map_.run || runs_ > 1);
+    result_.design = block_.origin.designFingerprint;
+  }
+
+  Imported run(const std::function<void(double)>& progress, const std::stop_token& stop) {
+    std::unique_ptr<SampleWriter> writer;
+    for (std::size_t run = 0; run < runs_; ++run) {
+      const auto first = request_.tables.begin() + static_cast<std::ptrdiff_t>(run) * map_.tables;
+      ImportedRows rows(map_, mapFile_, {first, first + map_.tables});
+      if (!writer) writer = std::make_unique<SampleWriter>(request_.output, block_, request_.force);
+      readRun(rows, run, *writer, progress, stop);
+      result_.leftOut += rows.counts().outsideClock + rows.counts().inGaps;
+      result_.unusedColumns = rows.unusedColumns();
+      for (const std::string& note : rows.notes()) result_.notes.push_back(note);
+      noteLeftOut(rows.counts());
+    }
+    if (!map_.leaveOutBadRows) bad_.refuse();
+    if (result_.samples == 0)
+      throw Error(request_.tables.front().string() + ": has no rows " +
+                  (result_.leftOut + bad_.count() > 0 ? "that can be used" : "below the names of its columns"));
+    finish();
+    writer->finish(stop);
+    return std::move(result_);
+  }
+
+private:
+  void readRun(ImportedRows& rows, std::size_t run, SampleWriter& writer, const std::function<void(double)>& progress,
+               const std::stop_token& stop) {
+    const Eigen::Index atOnce = samplesAtOnce(block_);
+    for (bool more = true; more;) {
+      resizeSamples(block_, atOnce);
+      Eigen::Index count = 0;
+      while (count < atOnce && (more = rows.next(row_, problems_))) {
+        stopIfAsked(stop);
+        if (take(rows, run, count)) ++count;
+      }
+      resizeSamples(block_, count);
+      if (map_.leaveOutBadRows || bad_.count() == 0) writer.append(block_);
+      readings_.add(block_.resistances_ohm);
+      result_.samples += static_cast<std::size_t>(count);
+      if (progress) progress((static_cast<double>(run) + rows.share()) / static_cast<double>(runs_));
+    }
+  }
+
+  /// The row as a sample; false if it cannot be used.
+  bool take(const ImportedRows& rows, std::size_t run, Eigen::Index column) {
+    int area = 0;
+    if (problems_.empty()) {
+      std::string problem;
+      area = areaOf(map_, row_, problem);
+      if (!problem.empty()) problems_.push_back(rows.where() + ": " + problem);
+    }
+    if (!problems_.empty()) {
+      bad_.add(problems_.front());
+      problems_.clear();
+      return false;
+    }
+    block_.area(column) = area;
+    block_.resistances_ohm.col(column) = row_.readings;
+    block_.forces_N.col(column) = row_.force_N;
+    if (block_.places_mm.rows() > 0) block_.places_mm.col(column) = row_.place_mm;
+    const double number = runNumber(run);
+    if (block_.runs.rows() > 0) block_.runs(0, column) = number;
+    if (map_.time) {
+      requireLater(rows, number);
+      block_.times_s(0, column) = row_.time_s;
+    }
+    if (!map_.forces_N.values.empty()) forces_.add(row_.force_N);
+    return true;
+  }
+
+  /// Runs of the map's column and of the files, numbered in the order of their first rows.
+  double runNumber(std::size_t run) {
+    const auto number = static_cast<double>(numbers_.size());
+    return numbers_.try_emplace({run, map_.run ? row_.run : 0.0}, number).first->second;
+  }
+
+  void requireLater(const ImportedRows& rows, double run) {
+    const auto [last, isNew] = lastTimes_s_.try_emplace(run, row_.time_s);
+    if (!isNew && row_.time_s < last->second)
+      throw Error(rows.where() + ": time: " +
+                  gotExpected(row_.time_s, " s",
+                              shortText(last->second) + " s or later; sort the rows by time" +
+                                  (map_.run ? "" : ", or name the column of the \"run\"")));
+    last->second = row_.time_s;
+  }
+
+  void noteLeftOut(const ImportedCounts& counts) {
+    if (counts.outsideClock > 0)
+      result_.notes.push_back(std::to_string(counts.outsideClock) +
+                              " rows left out: before or after the other table's clock");
+    if (counts.inGaps > 0)
+      result_.notes.push_back(std::to_string(counts.inGaps) + " rows left out: in gaps of the other table");
+  }
+
+  void finish() {
+    result_.leftOut += bad_.count();
+    if (bad_.count() > 0)
+      result_.notes.push_back(std::to_string(bad_.count()) + " bad rows left out, the first: " + bad_.first());
+    const auto all = static_cast<double>(result_.samples + result_.leftOut);
+    if (static_cast<double>(result_.leftOut) > kManyLeftOut * all)
+      result_.warnings.push_back(std::to_string(result_.leftOut) + " of " + shortText(all) + " rows were left out");
+    result_.runs = std::max<std::size_t>(1, numbers_.size());
+    forces_.warn(map_, request_.design, result_.warnings);
+    const bool signals = block_.origin.signals;
+    result_.constant = readings_.inWords(
+        [this, signals](Eigen::Index i) {
+          return (signals ? "S_r" : "R_r") + std::to_string(i / block_.columnWires) + "_c" +
+                 std::to_string(i % block_.columnWires);
+        },
+        signals ? map_.signalUnit : "ohm");
+  }
+
+  const ImportRequest& request_;
+  ImportMap map_;
+  std::string mapFile_;
+  std::size_t runs_ = 1;
+  SampleSet block_;
+  ImportedRow row_;
+  std::vector<std::string> problems_;
+  BadRows bad_;
+  ForceRanges forces_;
+  ConstantReadings readings_;
+  std::map<std::pair<std::size_t, double>, double> numbers_; ///< of the runs
+  std::map<double, double> lastTimes_s_;                     ///< by run
+  Imported result_;
+};
+
 } // namespace
 
-Imported importSamples(const fs::path& table, const fs::path& mapFile, const SensorDesign* design,
-                       const fs::path& output, bool force, const std::function<void(double)>& progress,
+Imported importSamples(const ImportRequest& request, const std::function<void(double)>& progress,
                        const std::stop_token& stop) {
-  requireFree(output, force);
-  const ImportMap map = readImportMap(mapFile);
-  if (design != nullptr) requireFits(map, *design, mapFile);
-  const auto source = openTable(table, map.separator);
-  RowReader rows(map, *source, mapFile, table);
-  SampleSet block = headOf(map, design, table);
-  Imported result{0, rows.unused(), block.origin.designFingerprint};
-  SampleWriter writer(output, block, force);
-  ConstantReadings readings;
-  const Eigen::Index atOnce = samplesAtOnce(block);
-  for (Eigen::Index count = atOnce; count == atOnce;) {
-    resizeSamples(block, atOnce);
-    for (count = 0; count < atOnce && rows.read(block, count); ++count) stopIfAsked(stop);
-    resizeSamples(block, count);
-    writer.append(block);
-    readings.add(block.resistances_ohm);
-    result.samples += static_cast<std::size_t>(count);
-    if (progress) progress(source->share());
-  }
-  if (result.samples == 0) throw Error(table.string() + ": has no rows below the names of its columns");
-  result.constant = readings.inWords(
-      [&block](Eigen::Index i) {
-        return "R_r" + std::to_string(i / block.columnWires) + "_c" + std::to_string(i % block.columnWires);
-      },
-      "ohm");
-  writer.finish(stop);
+  requireFree(request.output, request.force);
+  if (!request.map.empty())
+    return Import(request, readImportMap(request.map), request.map.string()).run(progress, stop);
+  const GuessedMap guessed = guessImportMap(request.tables);
+  const std::string name = "the map that the names of the columns state";
+  Imported result = Import(request, importMapFrom(parseJson(guessed.json, name), name), name).run(progress, stop);
+  result.notes.insert(result.notes.begin(), guessed.assumed.begin(), guessed.assumed.end());
   return result;
 }
 

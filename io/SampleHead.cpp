@@ -22,6 +22,7 @@ constexpr int kNewestSamples = 1;
 constexpr int kLargestCount = 100000;
 constexpr const char* kFullSolves = "full solves";
 constexpr const char* kSurrogate = "surrogate";
+constexpr const char* kSignals = "signals"; ///< no resistances
 
 std::string shown(std::string_view value) {
   return "\"" + std::string(value.substr(0, 60)) + (value.size() > 60 ? "..." : "") + "\"";
@@ -127,6 +128,11 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   origin.surrogate = kind == kSurrogate;
   origin.surrogateError = head.number("surrogate_error", 1e300);
   origin.firstSample = head.number("first_sample", ~std::uint64_t{0});
+  if (head.has("readings")) {
+    const std::string readings = head.text("readings");
+    if (readings != kSignals) refuseKey(lines, "readings", shown(readings), kSignals);
+    origin.signals = true;
+  }
   if (head.has("made_by")) origin.madeBy = head.text("made_by");
   return origin;
 }
@@ -135,9 +141,10 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
 void readColumns(const SampleLines& lines, const std::string& line, SampleSet& set) {
   const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
   const bool displacements = line.find(",u_r") != std::string::npos;
-  const bool resistances = line.find(",R_r") != std::string::npos;
+  const bool resistances = line.find(set.origin.signals ? ",S_r" : ",R_r") != std::string::npos;
   const bool touches = !set.origin.touches.empty(); // with places of their own
   set.times_s.resize(line.starts_with("area,time_s,") ? 1 : 0, 0);
+  set.runs.resize(line.starts_with("area,run,") || line.starts_with("area,time_s,run,") ? 1 : 0, 0);
   set.touches.resize(touches ? kTouchRows : 0, 0);
   set.places_mm.resize(!touches && line.find(",x_mm,y_mm,") != std::string::npos ? 2 : 0, 0);
   set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
@@ -205,6 +212,7 @@ std::string sampleFileHead(const SampleSet& set) {
   line("kind", origin.surrogate ? kSurrogate : kFullSolves);
   line("surrogate_error", text(origin.surrogateError));
   line("first_sample", std::to_string(origin.firstSample));
+  if (origin.signals) line("readings", kSignals);
   if (!origin.madeBy.empty()) line("made_by", origin.madeBy);
   line("row_wires", std::to_string(set.rowWires));
   line("electrodes_per_row_wire", std::to_string(set.electrodesPerRowWire));
@@ -216,6 +224,7 @@ std::string sampleFileHead(const SampleSet& set) {
 std::string sampleColumns(const SampleSet& set) {
   std::string names = "area";
   if (set.times_s.rows() > 0) names += ",time_s";
+  if (set.runs.rows() > 0) names += ",run";
   if (set.touches.rows() > 0) names += ",shape,size_mm,friction,x_mm,y_mm";
   if (set.places_mm.rows() > 0) names += ",x_mm,y_mm";
   if (set.forces_N.rows() == 3) {
@@ -230,7 +239,9 @@ std::string sampleColumns(const SampleSet& set) {
       for (const char axis : {'x', 'y', 'z'})
         names += ",u_r" + std::to_string(r) + "_e" + std::to_string(e) + "_" + axis + "_mm";
   for (int r = 0; r < set.rowWires && set.resistances_ohm.rows() > 0; ++r)
-    for (int c = 0; c < set.columnWires; ++c) names += ",R_r" + std::to_string(r) + "_c" + std::to_string(c) + "_ohm";
+    for (int c = 0; c < set.columnWires; ++c)
+      names += (set.origin.signals ? ",S_r" : ",R_r") + std::to_string(r) + "_c" + std::to_string(c) +
+               (set.origin.signals ? "" : "_ohm");
   return names;
 }
 

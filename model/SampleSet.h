@@ -26,6 +26,7 @@ struct SampleOrigin {
   std::size_t firstSample = 0;         ///< index of the first sample within the whole request; above 0 only in shards
   std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
   std::string touches{};               ///< what indenters were drawn from, in words; empty where areas are loaded
+  bool signals = false; ///< the readings are no resistances: any sign, and differences from rest in place of ratios
   std::string madeBy{}; ///< program and instruction set, which decide the last digits; several by "; ". Empty: unknown
 
   /// Measured by another rig: `mesh` is kImportedFrom and the name of its table, and the fingerprint need not be of a
@@ -49,12 +50,13 @@ struct SampleSet {
   int areaCount = 0;
   Eigen::VectorXi area;      ///< loaded area of each sample, or that under the touch; -1 if all are loaded together
   Eigen::MatrixXd times_s;   ///< 1 x samples where another rig measured them, from its zero
+  Eigen::MatrixXd runs;      ///< 1 x samples where they are of several runs: number of the run, from 0
   Eigen::MatrixXd touches;   ///< kTouchRows x samples where indenters press, by TouchRow; else no rows
   Eigen::MatrixXd places_mm; ///< 2 x samples where another rig measured them: x, y of the touch from the block's corner
   Eigen::MatrixXd forces_N;  ///< 3 x samples; `together`: (3 areas) x samples
   Eigen::MatrixXd beside;    ///< kBesideRows x samples where two touches press at once: the other, and its force
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
-  Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c
+  Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c. With origin.signals: signals
 
   [[nodiscard]] Eigen::Index size() const { return forces_N.cols(); }
   [[nodiscard]] bool hasTouches() const { return touches.rows() > 0; }
@@ -65,9 +67,9 @@ struct SampleSet {
 };
 
 /// The matrices of a set with a column a sample, in the order of the columns of its file.
-inline constexpr std::array kSampleParts{&SampleSet::times_s,        &SampleSet::touches, &SampleSet::places_mm,
-                                         &SampleSet::forces_N,       &SampleSet::beside,  &SampleSet::displacements_mm,
-                                         &SampleSet::resistances_ohm};
+inline constexpr std::array kSampleParts{&SampleSet::times_s,          &SampleSet::runs,           &SampleSet::touches,
+                                         &SampleSet::places_mm,        &SampleSet::forces_N,       &SampleSet::beside,
+                                         &SampleSet::displacements_mm, &SampleSet::resistances_ohm};
 
 /// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
 /// shard does not count as a difference.

@@ -38,7 +38,7 @@ PACKAGES = {
     r"(suitesparse/)?cholmod\.h": {"solver"},
     r"hidapi(/hidapi)?\.h": {"io"},
     r"libudev\.h": {"io"},
-    r"hdf5\.h|zlib\.h|libdeflate\.h|minizip/.*": {"io"},
+    r"hdf5\.h|matio\.h|zlib\.h|libdeflate\.h|minizip/.*": {"io"},
     r"lo/lo\.h|zmq\.h|arpa/inet\.h|net(inet|db|/if)?(/in)?\.h|ifaddrs\.h": {"io"},
     r"gif_lib\.h": {"app/scenes"},
     r"nlohmann/.*": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
@@ -51,7 +51,7 @@ PACKAGES = {
     r"sanitizer/tsan_interface\.h": {"app/gui"},
     r"sys/.*|unistd\.h|dlfcn\.h|link\.h|fcntl\.h|spawn\.h|poll\.h|pthread\.h|malloc\.h|linux/.*|termios\.h": {"io", "app/study", "app/scenes", "app/cli", "app/gui"},
 }
-ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h", r"hdf5\.h", r"lo/lo\.h", r"zmq\.h", r"zlib\.h",
+ONE_SOURCE_ONLY = [r"tetgen\.h", r"hidapi(/hidapi)?\.h", r"(suitesparse/)?cholmod\.h", r"hdf5\.h", r"matio\.h", r"lo/lo\.h", r"zmq\.h", r"zlib\.h",
                    r"minizip/.*"]
 # Calls that go on where they have failed, or throw when all is done; what to use instead; who may make them.
 CALLS = [

@@ -1,14 +1,8 @@
 #include "io/measured/MeasuredTable.h"
 
-#include "io/samples/Npz.h"
 #include "model/base/Error.h"
-#include "model/base/GotExpected.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
-#include <cstring>
+#include <array>
 #include <fstream>
 #include <string_view>
 
@@ -16,182 +10,66 @@ namespace palp {
 
 namespace fs = std::filesystem;
 
+using namespace std::string_view_literals;
+
 namespace {
 
-constexpr std::size_t kLongestLine = 4 << 20;
-constexpr std::size_t kMostColumns = 200'000;
-
-/// Without blanks and one pair of quotes around it.
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return text;
-}
-
-std::string quoted(std::string_view text) {
-  return "\"" + std::string(text.substr(0, 40)) + (text.size() > 40 ? "..." : "") + "\"";
-}
-
-class CsvTable : public MeasuredTable {
-public:
-  CsvTable(const fs::path& path, char separator)
-      : path_(path), separator_(separator), stream_(path, std::ios::binary), buffer_(kLongestLine, '\0') {
-    if (!stream_) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) size_ = static_cast<double>(fs::file_size(path, ignored));
-    do {
-      if (!nextLine()) refuse("no line with the names of the columns");
-    } while (text_.empty() || text_.front() == '#');
-    split();
-    for (const std::string_view name : fields_) columns_.emplace_back(trimmed(name));
-  }
-
-  [[nodiscard]] const std::vector<std::string>& columns() const override { return columns_; }
-
-  bool next(const std::vector<std::size_t>& chosen, std::vector<double>& values) override {
-    if (!nextLine()) return false;
-    split();
-    if (fields_.size() != columns_.size())
-      refuse(std::to_string(fields_.size()) + " fields; expected, by the names of the columns, " +
-             std::to_string(columns_.size()));
-    values.resize(chosen.size());
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      std::string_view field = trimmed(fields_[chosen[i]]);
-      if (!field.empty() && field.front() == '+') field.remove_prefix(1);
-      const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), values[i]);
-      if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(values[i]))
-        refuse("column " + columns_[chosen[i]] + ": " + gotExpected(quoted(field), "a finite number"));
-    }
-    return true;
-  }
-
-  [[nodiscard]] double share() const override { return size_ > 0 ? std::min(1.0, read_ / size_) : 1; }
-
-  [[noreturn]] void refuse(const std::string& sentence) const override {
-    throw Error(path_.string() + ", line " + std::to_string(line_) + ": " + sentence);
-  }
-
-private:
-  bool nextLine() {
-    ++line_;
-    stream_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    const auto count = static_cast<std::size_t>(stream_.gcount());
-    read_ += static_cast<double>(count);
-    if (stream_.fail() && count + 1 >= buffer_.size())
-      refuse("longer than " + std::to_string(kLongestLine >> 20U) + " MB; this is not a table");
-    if (stream_.fail()) return false;
-    text_ = std::string_view(buffer_.data(), stream_.eof() ? count : count - 1);
-    if (text_.find('\0') != std::string_view::npos) refuse("contains a zero byte; this is not a text table");
-    if (!text_.empty() && text_.back() == '\r') text_.remove_suffix(1);
-    return true;
-  }
-
-  void split() {
-    fields_.clear();
-    for (std::string_view rest = text_;;) {
-      const std::size_t at = rest.find(separator_);
-      fields_.push_back(rest.substr(0, at));
-      if (at == std::string_view::npos) return;
-      rest.remove_prefix(at + 1);
-    }
-  }
-
-  fs::path path_;
-  char separator_;
-  std::ifstream stream_;
-  std::string buffer_;
-  std::size_t line_ = 0;
-  double size_ = 0, read_ = 0; ///< bytes
-  std::string_view text_;
-  std::vector<std::string_view> fields_;
-  std::vector<std::string> columns_;
+/// A kind of file that is no table, by its first bytes, and the way out.
+struct OtherKind {
+  std::string_view begins;
+  const char* advice;
 };
 
-class NpzTable : public MeasuredTable {
-public:
-  explicit NpzTable(const fs::path& path) : path_(path) {
-    const std::map<std::string, NpyHead> heads = npzArrays(path);
-    for (const auto& [name, head] : heads) {
-      if (head.shape.empty() || head.isText()) continue; // what is said of all rows
-      if (!arrays_.empty() && head.shape[0] != rows_)
-        throw Error(path.string() + ": array " + name + ": " +
-                    gotExpected(std::to_string(head.shape[0]) + " rows",
-                                std::to_string(rows_) + ", as in array " + firstName_));
-      if (arrays_.empty()) firstName_ = name;
-      rows_ = head.shape[0];
-      Array& array = arrays_.emplace_back();
-      array.source = std::make_unique<NpzArray>(path, name);
-      array.row.resize(head.shape[0] == 0 ? 0 : head.items() / head.shape[0]);
-      if (columns_.size() + array.row.size() > kMostColumns)
-        throw Error(path.string() + ": array " + name + ": " +
-                    gotExpected(std::to_string(array.row.size()) + " numbers per row",
-                                "at most " + std::to_string(kMostColumns) + " in all arrays"));
-      for (std::size_t i = 0; i < array.row.size(); ++i) columns_.push_back(name + index(head, i));
-    }
-    if (arrays_.empty()) throw Error(path.string() + ": has no arrays of numbers with a row per sample");
-  }
-
-  [[nodiscard]] const std::vector<std::string>& columns() const override { return columns_; }
-
-  bool next(const std::vector<std::size_t>& chosen, std::vector<double>& values) override {
-    if (row_ == rows_) return false;
-    ++row_;
-    all_.clear();
-    for (Array& array : arrays_) {
-      array.source->read(std::span<double>(array.row));
-      all_.insert(all_.end(), array.row.begin(), array.row.end());
-    }
-    values.resize(chosen.size());
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      values[i] = all_[chosen[i]];
-      if (!std::isfinite(values[i])) refuse(columns_[chosen[i]] + ": " + gotExpected(values[i], "", "a finite number"));
-    }
-    return true;
-  }
-
-  [[nodiscard]] double share() const override {
-    return rows_ > 0 ? static_cast<double>(row_) / static_cast<double>(rows_) : 1;
-  }
-
-  [[noreturn]] void refuse(const std::string& sentence) const override {
-    throw Error(path_.string() + ", row " + std::to_string(row_ - 1) + ": " + sentence);
-  }
-
-private:
-  struct Array {
-    std::unique_ptr<NpzArray> source;
-    std::vector<double> row;
-  };
-
-  /// "[4,7]"; nothing for one number a row.
-  static std::string index(const NpyHead& head, std::size_t item) {
-    std::string text;
-    for (std::size_t d = head.shape.size(); d-- > 1; item /= head.shape[d])
-      text = std::to_string(item % head.shape[d]) + (text.empty() ? "" : ",") + text;
-    return text.empty() ? text : "[" + text + "]";
-  }
-
-  fs::path path_;
-  std::string firstName_;
-  std::uint64_t rows_ = 0, row_ = 0;
-  std::vector<Array> arrays_;
-  std::vector<std::string> columns_;
-  std::vector<double> all_;
+constexpr std::array kOtherKinds{
+    OtherKind{"\x1f\x8b"sv, "is compressed by gzip; unpack it first: gunzip FILE"},
+    OtherKind{"BZh"sv, "is compressed by bzip2; unpack it first: bunzip2 FILE"},
+    OtherKind{"\xfd"
+              "7zXZ"sv,
+              "is compressed by xz; unpack it first: unxz FILE"},
+    OtherKind{"\x28\xb5\x2f\xfd"sv, "is compressed by zstd; unpack it first: unzstd FILE"},
+    OtherKind{"7z\xbc\xaf"sv, "is a 7-Zip archive; unpack it first"},
+    OtherKind{"Rar!"sv, "is a RAR archive; unpack it first"},
+    OtherKind{"\xd0\xcf\x11\xe0"sv, "is an old Excel file (xls); save the sheet as CSV"},
+    OtherKind{"%PDF"sv, "is a PDF; a table of numbers is needed"},
+    OtherKind{"PAR1"sv, "is a Parquet file; write CSV, NPZ or HDF5, for instance by pandas: to_csv"},
+    OtherKind{"ARROW1"sv, "is a Feather file; write CSV, NPZ or HDF5, for instance by pandas: to_csv"},
+    OtherKind{"SQLite format 3"sv, "is an SQLite database; write the table as CSV"},
+    OtherKind{"\x93NUMPY"sv, "is one NumPy array; save it with its names by numpy.savez: NPZ"},
+    OtherKind{"TDSm"sv, "is a LabVIEW TDMS file; write the channels as CSV"},
+    OtherKind{"HDF_"sv, "is an HDF4 file; convert it to HDF5 or CSV"},
 };
+
+std::string firstBytes(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string begin(4096, '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin;
+}
+
+/// A zip file: NPZ, or the sheets of a spreadsheet.
+std::unique_ptr<MeasuredTable> openZip(const fs::path& path, std::string_view begin) {
+  const bool named = begin.size() > 30;
+  const std::string_view first = named ? begin.substr(30, 60) : std::string_view{};
+  if (first.find("[Content_Types].xml") == 0 || first.find("xl/") == 0 || first.find("_rels/") == 0)
+    throw Error(path.string() + ": is an Excel file (xlsx); save the sheet as CSV");
+  if (first.starts_with("mimetype"))
+    throw Error(path.string() + ": is a spreadsheet (ods) or another document; save the sheet as CSV");
+  return openNpzTable(path);
+}
 
 } // namespace
 
-std::unique_ptr<MeasuredTable> openTable(const fs::path& path, char separator) {
+std::unique_ptr<MeasuredTable> openTable(const fs::path& path, const TableForm& form) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw Error(path.string() + ": is a folder; a file is needed");
-  if (fs::is_regular_file(path, ignored)) {
-    std::ifstream stream(path, std::ios::binary);
-    char begin[2] = {};
-    stream.read(begin, 2);
-    if (begin[0] == 'P' && begin[1] == 'K') return std::make_unique<NpzTable>(path);
-  }
-  return std::make_unique<CsvTable>(path, separator);
+  if (!fs::is_regular_file(path, ignored)) return openTextTable(path, form); // a pipe is read only once
+  const std::string begin = firstBytes(path);
+  if (begin.starts_with("PK\x03\x04")) return openZip(path, begin);
+  if (begin.starts_with("\x89HDF\r\n") || begin.starts_with("MATLAB ")) return openHdf5Table(path);
+  for (const OtherKind& kind : kOtherKinds)
+    if (begin.starts_with(kind.begins)) throw Error(path.string() + ": " + kind.advice);
+  return openTextTable(path, form);
 }
 
 } // namespace palp

@@ -24,6 +24,7 @@ static_assert(std::is_same_v<hid_t, std::int64_t>);
 
 constexpr hsize_t kMostTexts = 1'000'000; ///< names of columns
 constexpr std::size_t kLongestText = 4096;
+constexpr std::size_t kMostDatasets = 10'000;
 // To find a chunk by its number the library counts from the first one: 50 ns each time.
 constexpr double kFewChunks = 1000, kBytesASquare = 25; ///< the time in which 500 MB/s would be read
 
@@ -287,6 +288,29 @@ void Hdf5File::writeChunk(const std::string& name, std::uint64_t row, std::span<
   errno = 0;
   if (H5Dwrite_chunk(id, H5P_DEFAULT, 0, place.data(), packed.size(), packed.data()) < 0)
     refuse("cannot be written: " + std::string(std::strerror(errno)));
+}
+
+std::map<std::string, std::vector<std::uint64_t>> Hdf5File::shapes() const {
+  const auto lock = inLibrary();
+  std::vector<std::string> names;
+  const H5L_iterate_t add = [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
+    auto& all = *static_cast<std::vector<std::string>*>(to);
+    all.emplace_back(name);
+    return all.size() < kMostDatasets ? 0 : 1;
+  };
+  if (H5Lvisit(file_, H5_INDEX_NAME, H5_ITER_NATIVE, add, &names) < 0)
+    refuse("its groups cannot be read; the file is damaged");
+  std::map<std::string, std::vector<std::uint64_t>> shapes;
+  for (const std::string& name : names) {
+    const hid_t id = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    if (id < 0) continue; // a group
+    const Handle open(id, H5Dclose), type(H5Dget_type(id), H5Tclose);
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) continue;
+    const std::vector<hsize_t> shape = shapeOf(id);
+    shapes[name] = {shape.begin(), shape.end()};
+  }
+  return shapes;
 }
 
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {

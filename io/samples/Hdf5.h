@@ -65,6 +65,8 @@ public:
   /// A chunk as it is stored (io/samples/ShuffledDeflate.h); `row` is its first one.
   void writeChunk(const std::string& name, std::uint64_t row, std::span<const unsigned char> packed);
 
+  /// Data sets of numbers in all groups, by their paths, and their shapes.
+  [[nodiscard]] std::map<std::string, std::vector<std::uint64_t>> shapes() const;
   [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& name) const;
   /// Refuses a dataset of no numbers, and one of which not every chunk is there.
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;

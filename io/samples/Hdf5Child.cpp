@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <sstream>
 
 namespace palp {
 
@@ -190,6 +191,17 @@ std::map<std::string, std::string> Hdf5Child::attributes() const {
   std::map<std::string, std::string> values;
   for (std::size_t i = 0; i + 1 < words.size(); i += 2) values.emplace(words[i], words[i + 1]);
   return values;
+}
+
+const std::map<std::string, std::vector<std::uint64_t>>& Hdf5Child::datasets() const {
+  if (!datasets_.empty()) return datasets_;
+  const auto words = splitAtZeros(answer(requestOf(Hdf5Question::Datasets), kMostWords_bytes));
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
+    std::istringstream sizes(words[i + 1]);
+    std::vector<std::uint64_t>& shape = datasets_[words[i]];
+    for (std::uint64_t size = 0; sizes >> size;) shape.push_back(size);
+  }
+  return datasets_;
 }
 
 std::vector<std::string> Hdf5Child::texts(const std::string& name) const {

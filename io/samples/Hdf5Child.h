@@ -27,6 +27,8 @@ public:
 
   // As those of Hdf5File.
   [[nodiscard]] std::map<std::string, std::string> attributes() const;
+  /// Arrays of numbers by their paths, and their shapes; of a MAT file its variables.
+  [[nodiscard]] const std::map<std::string, std::vector<std::uint64_t>>& datasets() const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& name) const;
   [[nodiscard]] Hdf5Layout layout(const std::string& name, Hdf5Number number) const;
   /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it is not within the file.
@@ -53,8 +55,9 @@ private:
   std::stop_token stop_;
   std::uint64_t fileBytes_ = 0;
   int file_ = -1, socket_ = -1;
-  mutable pid_t process_ = -1; ///< -1: has ended
-  mutable std::mutex one_;     ///< question and answer
+  mutable std::map<std::string, std::vector<std::uint64_t>> datasets_; ///< once asked for
+  mutable pid_t process_ = -1;                                         ///< -1: has ended
+  mutable std::mutex one_;                                             ///< question and answer
 };
 
 } // namespace palp

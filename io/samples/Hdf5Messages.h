@@ -14,7 +14,8 @@ enum class Hdf5Question : std::uint32_t {
   Texts,      ///< of a dataset, each ended by a zero
   Layout, ///< whole numbers of 64 bits: rows of a chunk, shuffled and deflated or not, dimensions, shape, offset and
           ///< bytes of each chunk
-  Rows    ///< the numbers, `count` rows from `row` on
+  Rows,   ///< the numbers, `count` rows from `row` on
+  Datasets ///< of numbers, in all groups: path, sizes separated by blanks, each ended by a zero
 };
 
 /// Shorter than a page, so that it is sent at once.

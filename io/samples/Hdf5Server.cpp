@@ -3,6 +3,7 @@
 // a process that holds nothing but the file.
 
 #include "io/samples/Hdf5Messages.h"
+#include "io/samples/MatFile.h"
 #include "model/base/Error.h"
 
 #include <sys/resource.h>
@@ -100,6 +101,26 @@ template <class Number> std::string rows(const Hdf5File& file, const Hdf5Request
   return bytesOf(values);
 }
 
+std::string shapeWords(const std::map<std::string, std::vector<std::uint64_t>>& shapes) {
+  std::vector<std::string> words;
+  for (const auto& [name, shape] : shapes) {
+    std::string sizes;
+    for (const std::uint64_t size : shape) sizes += (sizes.empty() ? "" : " ") + std::to_string(size);
+    words.insert(words.end(), {name, sizes});
+  }
+  return joined(words);
+}
+
+/// A MAT file has arrays alone.
+std::string answer(MatFile& file, const Hdf5Request& request) {
+  if (request.question == Hdf5Question::Datasets) return shapeWords(file.shapes());
+  if (request.question != Hdf5Question::Rows)
+    throw Error("a MAT file contains no samples of Palp; palp import reads it");
+  std::vector<double> values(request.bytes / sizeof(double));
+  file.readRows(request.name, request.row, request.count, values);
+  return bytesOf(values);
+}
+
 std::string answer(const Hdf5File& file, const Hdf5Request& request) {
   switch (request.question) {
   case Hdf5Question::Attributes: {
@@ -116,6 +137,8 @@ std::string answer(const Hdf5File& file, const Hdf5Request& request) {
     for (const Hdf5Place& chunk : found.chunks) numbers.insert(numbers.end(), {chunk.offset, chunk.bytes});
     return bytesOf(numbers);
   }
+  case Hdf5Question::Datasets:
+    return shapeWords(file.shapes());
   case Hdf5Question::Rows:
     return request.number == Hdf5Number::Double ? rows<double>(file, request) : rows<std::int32_t>(file, request);
   }
@@ -127,14 +150,17 @@ void serve(const std::filesystem::path& path) {
   const std::uintmax_t fileBytes = std::filesystem::file_size(path, none);
   limitMemory(none ? 0 : fileBytes);
   std::optional<Hdf5File> file;
+  std::optional<MatFile> mat;
+  const bool isMat = MatFile::isOne(path);
   for (Hdf5Request request; receive(&request, sizeof request);) {
     request.name[sizeof request.name - 1] = '\0';
     limitTime(kTime_s + static_cast<double>(fileBytes) / kFileRate + static_cast<double>(request.bytes) / kNumbersRate);
     Hdf5Reply reply;
     std::string bytes;
     try {
-      if (!file) file.emplace(path, Hdf5File::Open::ForReading);
-      bytes = answer(*file, request);
+      if (isMat && !mat) mat.emplace(path);
+      if (!isMat && !file) file.emplace(path, Hdf5File::Open::ForReading);
+      bytes = isMat ? answer(*mat, request) : answer(*file, request);
     } catch (const Error& refused) {
       reply.refused = 1;
       bytes = refused.what();

@@ -61,6 +61,7 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
   const auto areas =
       head.forces_N.rows() == 3 ? std::vector<std::uint64_t>{3} : std::vector<std::uint64_t>{asSize(head.areaCount), 3};
   if (head.times_s.rows() > 0) arrays.push_back({"time_s", "s", {}, &SampleSet::times_s});
+  if (head.runs.rows() > 0) arrays.push_back({"run", "1", {}, &SampleSet::runs});
   if (head.touches.rows() > 0)
     arrays.push_back(
         {"touches",
@@ -78,8 +79,10 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
                       {asSize(head.rowWires), asSize(head.electrodesPerRowWire), 3},
                       &SampleSet::displacements_mm});
   if (head.resistances_ohm.rows() > 0)
-    arrays.push_back(
-        {"resistances_ohm", "ohm", {asSize(head.rowWires), asSize(head.columnWires)}, &SampleSet::resistances_ohm});
+    arrays.push_back({head.origin.signals ? "signals" : "resistances_ohm",
+                      head.origin.signals ? "as measured" : "ohm",
+                      {asSize(head.rowWires), asSize(head.columnWires)},
+                      &SampleSet::resistances_ohm});
   return arrays;
 }
 

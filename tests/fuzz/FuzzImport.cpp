@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   table.hold({between + 1, data + size});
   bool written = false;
   try {
-    palp::importSamples(table.path(), map.path(), nullptr, output.file(), true, {}, {});
+    palp::importSamples({{table.path()}, map.path(), nullptr, output.file(), true}, {}, {});
     written = true;
   } catch (const palp::Error&) { // a refusal is an answer, which leaves nothing
     if (!output.isEmpty()) std::abort();
