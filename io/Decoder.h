@@ -4,6 +4,7 @@
 #include "model/SensorDesign.h"
 #include "nn/RbfNetwork.h"
 #include "nn/RbfTrainer.h"
+#include "nn/measured/MeasuredFit.h"
 #include "nn/rivals/BackPropagation.h"
 #include "nn/rivals/ForwardModel.h"
 #include "nn/rivals/GaussianProcess.h"
@@ -62,6 +63,21 @@ struct DecoderInput {
   Eigen::VectorXd low, high; ///< training range of each input [mm or ohm]
 };
 
+/// Of a decoder that was trained with measured rows: what it makes of the readings, and the errors that leaving out
+/// rows found, which hold for later rows (resources/docs/numerics/measured.md). Outputs are the forces, and below them
+/// the position.
+struct MeasuredTraining {
+  InputStage stage;
+  DeviationLaw deviation;
+  TrainingEllipse ellipse;
+  RowDependence dependence;
+  Eigen::VectorXd stated;                   ///< rms error of each output
+  Eigen::VectorXd singleRows;               ///< what leaving out single rows would have stated
+  std::optional<Eigen::VectorXd> recording; ///< with a complete recording left out
+  double relative = 0;                      ///< stated error, of the forces' deviations
+  std::optional<double> relativeRecording;
+};
+
 /// A trained map from the sensor's readings to the force, with everything needed to use and to judge it.
 struct Decoder {
   DecoderKind kind = DecoderKind::Rbf;
@@ -81,11 +97,12 @@ struct Decoder {
   std::optional<DecoderPlace> place; ///< of a decoder of force and place, whose model gives x and y after the force
   /// Of a decoder by inversion, whose model says how readings follow a touch and stays as it is; none: not calibrated.
   std::optional<OutputCorrection> correction;
-  Eigen::VectorXd low_N, high_N;     ///< training range of each force
-  Eigen::MatrixXd residual_N;        ///< forces x areas (1 where unknown): rms error found in training, per area
-  std::optional<ForwardModel> areas; ///< finds the touched area; none for `together` or where there is one area
-  std::vector<int> areaOfClass;      ///< area of each class of `areas` (or of the maximum likelihood decoder)
-  FitReport report;                  ///< of the fit; sizes in N
+  Eigen::VectorXd low_N, high_N;            ///< training range of each force
+  Eigen::MatrixXd residual_N;               ///< forces x areas (1 where unknown): rms error found in training, per area
+  std::optional<ForwardModel> areas;        ///< finds the touched area; none for `together` or where there is one area
+  std::vector<int> areaOfClass;             ///< area of each class of `areas` (or of the maximum likelihood decoder)
+  FitReport report;                         ///< of the fit; sizes in N
+  std::optional<MeasuredTraining> measured; ///< the model reads the stage's inputs
 
   /// Components of the forces.
   [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }

@@ -159,7 +159,8 @@ void requireFitting(const JsonPlace& root, const Decoder& decoder) {
               decoder.together ? "outputs, three per area"
               : decoder.place  ? "outputs, the components of one force and the two of its place"
                                : "outputs, the components of one force");
-  requireSize(root.at("input"), decoder.inputs(), inputsOf(decoder), "inputs, as in the model");
+  const Eigen::Index staged = decoder.measured ? decoder.measured->stage.inputs(decoder.inputs()) : decoder.inputs();
+  requireSize(root.at("input"), staged, inputsOf(decoder), "inputs, as in the model");
   requireSize(root.at("low_N"), decoder.low_N.size(), forces, "numbers, one per component of the force");
   requireSize(root.at("high_N"), decoder.high_N.size(), forces, "numbers, one per component of the force");
   requireSize(root.at("residual_N"), decoder.residual_N.rows(), forces, "rows, one per component of the force");
@@ -195,6 +196,7 @@ std::string networkText(const Decoder& decoder) {
                      {"residual_mm", toJson(decoder.place->residual_mm)}};
   if (decoder.correction)
     json["correction"] = {{"gains", toJson(decoder.correction->gains)}, {"offset", toJson(decoder.correction->offset)}};
+  if (decoder.measured) json["measured"] = toJson(*decoder.measured);
   if (decoder.readout) json["readout"] = kReadouts.name(*decoder.readout);
   json["model"] = modelJson(decoder);
   json["area_of_class"] = decoder.areaOfClass;
@@ -211,7 +213,7 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   root.onlyKeys({"palp_network", "decoder", "mode", "trained_with", "design_fingerprint", "seed", "noise_relative",
                  "input", "area_count", "together", "low_N", "high_N", "residual_N", "fit", "model", "area_of_class",
                  "areas"},
-                {"readout", "touches", "place", "correction"});
+                {"readout", "touches", "place", "correction", "measured"});
   Decoder decoder;
   decoder.kind = root.at("decoder").named(kDecoderKinds);
   decoder.mode = root.at("mode").named(kDecoderModes);
@@ -234,6 +236,11 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   if (root.has("place")) decoder.place = readPlace(root.at("place"));
   decoder.report = readReport(root.at("fit"));
   readModel(root.at("model"), decoder);
+  if (root.has("measured")) {
+    if (!std::holds_alternative<RbfNetwork>(decoder.model))
+      root.at("measured").refuse("no such key, because this decoder is not a network of measured rows");
+    decoder.measured = readMeasured(root.at("measured"), std::get<RbfNetwork>(decoder.model), decoder.inputs());
+  }
   decoder.areaOfClass = readIntegers(root.at("area_of_class"));
   if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
   requireFitting(root, decoder);

@@ -16,12 +16,15 @@ OrderedJson toJson(const RbfNetwork& network);
 OrderedJson toJson(const ForwardModel& model);
 OrderedJson toJson(const KernelForwardModel& model);
 OrderedJson toJson(const SplineTable& table);
+OrderedJson toJson(const MeasuredTraining& measured);
 
 /// Readers throw Error with file, key, value and what is allowed; sizes that do not fit together too.
 Eigen::VectorXd readVector(const JsonPlace& place);
 Eigen::MatrixXd readMatrix(const JsonPlace& place);
 std::vector<int> readIntegers(const JsonPlace& place);
 RbfNetwork readRbf(const JsonPlace& place);
+/// Of a network of measured rows, which reads what a stage makes of so many readings.
+MeasuredTraining readMeasured(const JsonPlace& place, const RbfNetwork& network, Eigen::Index readings);
 ForwardModel readForwardModel(const JsonPlace& place);
 KernelForwardModel readKernelForwardModel(const JsonPlace& place);
 

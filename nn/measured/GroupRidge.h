@@ -7,12 +7,12 @@
 
 namespace palp {
 
-using Rows = std::vector<Eigen::Index>;
+using RowNumbers = std::vector<Eigen::Index>;
 
-/// Rows that are left out together, and those of them whose errors are judged.
+/// RowNumbers that are left out together, and those of them whose errors are judged.
 struct Fold {
-  Rows leftOut; ///< ascending
-  Rows judged;  ///< ascending, among them
+  RowNumbers leftOut; ///< ascending
+  RowNumbers judged;  ///< ascending, among them
 };
 
 /// Ridge regression min |y - A x - c|^2 + n lambda t |x|^2, c free, with t the mean square length of a row of A, and

@@ -28,6 +28,12 @@ Eigen::MatrixXd InputStage::signals(const Eigen::Ref<const Eigen::MatrixXd>& tra
   return (weights * transformed).colwise() + constant;
 }
 
+Eigen::MatrixXd InputStage::held(const Eigen::Ref<const Eigen::MatrixXd>& readings) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(inputs(readings.rows()), readings.cols());
+  result.topRows(readings.rows()) = transformed(readings);
+  return result;
+}
+
 Eigen::MatrixXd InputStage::apply(const Eigen::Ref<const Eigen::MatrixXd>& readings, const Eigen::MatrixXd& clock_s,
                                   const Eigen::MatrixXd& runs) const {
   const Eigen::MatrixXd direct = transformed(readings);

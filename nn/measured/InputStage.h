@@ -32,6 +32,8 @@ struct InputStage {
 
   [[nodiscard]] Eigen::MatrixXd transformed(const Eigen::Ref<const Eigen::MatrixXd>& readings) const;
   [[nodiscard]] Eigen::MatrixXd signals(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const;
+  /// The same for readings that have been held for long: the differences are 0.
+  [[nodiscard]] Eigen::MatrixXd held(const Eigen::Ref<const Eigen::MatrixXd>& readings) const;
   /// Inputs x samples from readings x samples. `clock_s` and `runs` (1 x samples; no rows: no clock, one run) are
   /// needed by a memory: a new run begins where the run changes or a gap is too long. Throws NetworkError without a
   /// clock.

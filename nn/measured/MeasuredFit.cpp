@@ -412,17 +412,20 @@ private:
     law.range = (targets.colwise().maxCoeff() - targets.colwise().minCoeff()).transpose();
     law.a = law.b = Eigen::VectorXd::Zero(targets.cols());
     Eigen::VectorXd size = Eigen::VectorXd::Zero(targets.rows());
-    for (Eigen::Index j = 0; j < targets.cols(); ++j)
+    const Eigen::Index forces = options_.forces < 0 ? targets.cols() : options_.forces;
+    law.range.tail(targets.cols() - forces).setZero();
+    for (Eigen::Index j = 0; j < forces; ++j)
       if (law.range(j) > 0) size += ((targets.col(j) - errors.col(j)) / law.range(j)).cwiseAbs2();
     size = size.cwiseSqrt();
     const double median = percentile(size, 0.5);
     for (Eigen::Index j = 0; j < targets.cols(); ++j) {
-      if (!(law.range(j) > 0)) continue;
+      const double range = targets.col(j).maxCoeff() - targets.col(j).minCoeff();
+      if (!(range > 0)) continue;
       const Eigen::VectorXd error = errors.col(j).cwiseAbs();
       double least = std::numeric_limits<double>::infinity();
       for (const double percent : {0, 1, 2, 4, 6, 9, 13, 18, 25, 35}) {
-        const double b = percent / 100 * law.range(j);
-        double low = 1e-9 * law.range(j), high = 10 * law.range(j), a = low;
+        const double b = percent / 100 * range;
+        double low = 1e-9 * range, high = 10 * range, a = low;
         Shares shares;
         for (int i = 0; i < 60; ++i) {
           a = std::sqrt(low * high);

@@ -84,13 +84,13 @@ double neighbourCorrelation(const Eigen::MatrixXd& errors, const Eigen::VectorXi
   return largest;
 }
 
-Rows range(Eigen::Index first, Eigen::Index end) {
-  Rows rows(static_cast<std::size_t>(end - first));
+RowNumbers range(Eigen::Index first, Eigen::Index end) {
+  RowNumbers rows(static_cast<std::size_t>(end - first));
   std::iota(rows.begin(), rows.end(), first);
   return rows;
 }
 
-/// Rows by the fold that `foldOf` gives each.
+/// RowNumbers by the fold that `foldOf` gives each.
 template <class FoldOf> std::vector<Fold> dealt(Eigen::Index rows, int count, const FoldOf& foldOf) {
   std::vector<Fold> folds(static_cast<std::size_t>(count));
   for (Eigen::Index i = 0; i < rows; ++i) folds[static_cast<std::size_t>(foldOf(i))].leftOut.push_back(i);

@@ -24,6 +24,11 @@ void TrainArguments::declare(Command command, const std::set<std::string>& witho
                      option.choices.empty() ? option.help : option.allowed + ": " + option.help);
 }
 
+bool TrainArguments::isGiven(const std::string& name) const {
+  const auto found = values.find(name);
+  return found != values.end() && !found->second.empty();
+}
+
 TrainOptions TrainArguments::options() const {
   TrainOptions result;
   for (const TrainOption& option : trainOptionTable()) {

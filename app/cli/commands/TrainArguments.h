@@ -17,6 +17,7 @@ struct TrainArguments {
   std::map<std::string, std::string> values; ///< by name; empty: not given
   /// `without`: names of options that the command does not have.
   void declare(Command command, const std::set<std::string>& without = {});
+  [[nodiscard]] bool isGiven(const std::string& name) const;
   /// Throws UsageError with the option, its value and what is allowed.
   [[nodiscard]] TrainOptions options() const;
 };

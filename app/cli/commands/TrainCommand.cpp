@@ -3,6 +3,7 @@
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/KnownTouches.h"
+#include "app/study/decoding/MeasuredWords.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/Prediction.h"
 #include "io/DecoderFile.h"
@@ -42,13 +43,29 @@ void describe(const Decoder& decoder, Session& session) {
       std::isfinite(report.condition) ? nlohmann::ordered_json(report.condition) : nlohmann::ordered_json();
   session.result["rank"] = report.rank;
   session.result["largest_weight"] = report.largestWeight;
+  if (decoder.measured)
+    session.result["measured"] = {{"order", kRowOrders.name(decoder.measured->dependence.order)},
+                                  {"correlation", decoder.measured->dependence.correlation},
+                                  {"leaders", decoder.measured->dependence.leaders},
+                                  {"transform", kReadingTransforms.name(decoder.measured->stage.transform)},
+                                  {"memory_s", decoder.measured->stage.times_s},
+                                  {"stated", listJson(decoder.measured->stated)},
+                                  {"stated_relative", decoder.measured->relative},
+                                  {"single_rows", listJson(decoder.measured->singleRows)}};
   session.result["leave_one_out_N"] = listJson(report.leaveOneOut);
   session.result["seconds"] = report.seconds;
   session.warnings.insert(session.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
-void print(const Decoder& decoder, const Session& session) {
+void print(const Decoder& decoder, const SampleSet& samples, const Session& session) {
   const FitReport& report = decoder.report;
+  for (const std::string& warning : report.warnings) std::cerr << "palp train: " << warning << '\n';
+  if (decoder.measured) {
+    for (const std::string& sentence :
+         measuredSentences(decoder, static_cast<std::size_t>(samples.size()), samples.times_s.rows() > 0))
+      std::cout << sentence << '\n';
+    return;
+  }
   std::cout << name(decoder.kind) << " on " << decoder.inputs() << " " << name(decoder.input.kind) << "s";
   if (decoder.kind == DecoderKind::Rbf)
     std::cout << ": " << report.centers << " centres, spread " << report.spread << " ("
@@ -57,7 +74,6 @@ void print(const Decoder& decoder, const Session& session) {
               << report.condition << ", rank " << report.rank << ", largest weight " << report.largestWeight;
   std::cout << "\nerror found in training [N" << (decoder.place ? ", mm" : "")
             << "]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
-  for (const std::string& warning : report.warnings) std::cerr << "palp train: " << warning << '\n';
 }
 
 Exit run(const TrainCommandArguments& arguments, Session& session) {
@@ -69,6 +85,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   if (!arguments.design.empty()) design = designOption(arguments.design);
   if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
     sayMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
+  takeDefaultsOf(samples, arguments.train.isGiven("input"), arguments.train.isGiven("rows"), options);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,
@@ -82,7 +99,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
     session.result["noise_bound"] = boundJson(bound);
     if (!session.json) std::cout << "bound of the design at this noise, % of range: " << inWords(bound) << '\n';
   }
-  if (!session.json) print(decoder, session);
+  if (!session.json) print(decoder, samples, session);
   return Exit::Done;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/study/decoding/ConstantInputs.h"
 #include "app/study/decoding/KnownTouches.h"
+#include "app/study/decoding/MeasuredWords.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Cancelled.h"
@@ -42,6 +43,17 @@ Eigen::VectorXd residualRootMeanSquare(const Eigen::MatrixXd& residuals) {
                                : Eigen::VectorXd(residuals.array().square().rowwise().mean().sqrt());
 }
 
+/// Options of measured rows where none are trained.
+void requireNoMeasuredOptions(const TrainOptions& options) {
+  for (const auto& [name, given] : {std::pair{"order", options.order.has_value()},
+                                    {"transform", options.transform.has_value()},
+                                    {"memory", !options.memory.empty()},
+                                    {"clock", options.clock.has_value()}})
+    if (given)
+      throw Error(std::string(name) + ": an option of measured samples (palp import), of decoder rbf without noise and "
+                                      "without options of its system; these samples are trained otherwise");
+}
+
 /// The work of one training, step by step; `decoder_` and its report grow on the way.
 class DecoderTraining {
 public:
@@ -55,6 +67,7 @@ private:
   void addPlace();
   void fit();
   void fitRbf();
+  void fitAsMeasured();
   void fitPolynomial(int degree);
   void fitGaussianProcess();
   void fitBackPropagation();
@@ -85,6 +98,7 @@ Decoder DecoderTraining::run() {
   if (samples_.size() == 0) throw Error("samples: " + gotExpected("0", "1 or more"));
   const auto start = std::chrono::steady_clock::now();
   describe();
+  if (!trainsAsMeasured(samples_, options_)) requireNoMeasuredOptions(options_);
   say(0, "fitting " + name(options_.decoder));
   fit();
   if (stop_.stop_requested()) throw Cancelled();
@@ -92,6 +106,7 @@ Decoder DecoderTraining::run() {
   fitAreas();
   if (std::string constant = constantInputs(decoder_.input, inputs_); !constant.empty())
     decoder_.report.warnings.push_back(std::move(constant));
+  for (std::string& warning : measuredWarnings(decoder_)) decoder_.report.warnings.push_back(std::move(warning));
   decoder_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(1, "trained");
   return std::move(decoder_);
@@ -161,7 +176,47 @@ void DecoderTraining::fit() {
   }
 }
 
+void DecoderTraining::fitAsMeasured() {
+  MeasuredRows rows{inputs_.transpose(), targets_.transpose(), {}, Eigen::VectorXi::Zero(samples_.size())};
+  if (samples_.times_s.rows() > 0) rows.times_s = samples_.times_s.row(0).transpose();
+  if (samples_.runs.rows() > 0) rows.runs = samples_.runs.row(0).transpose().cast<int>();
+  MeasuredOptions options;
+  options.order = options_.order;
+  options.transform = options_.transform;
+  options.memory_s = memoryTimes_s(options_.memory);
+  options.rowsAreClock = options_.clock == MemoryClock::Rows;
+  options.spread = options_.spread;
+  options.ridge = options_.ridge;
+  options.centers = options_.centers;
+  options.seed = options_.seed;
+  options.forces = samples_.forces_N.rows();
+  MeasuredFit fit = fitMeasured(rows, options, stop_, [this](double share) { say(0.9 * share, "validating"); });
+  FitReport& report = decoder_.report;
+  report.spread = fit.network.centers.cols() > 0 ? fit.network.spread : 0;
+  report.ridge = fit.validation.lambda;
+  report.centers = static_cast<int>(fit.network.centers.cols());
+  report.rank = report.centers + static_cast<int>(fit.network.tail.cols());
+  report.condition = 1 / fit.validation.lambda;
+  report.largestWeight = std::max(fit.network.weights.size() > 0 ? fit.network.weights.cwiseAbs().maxCoeff() : 0.0,
+                                  fit.network.tail.cwiseAbs().maxCoeff());
+  MeasuredTraining& measured = decoder_.measured.emplace();
+  measured.stage = std::move(fit.stage);
+  measured.deviation = std::move(fit.deviation);
+  measured.ellipse = std::move(fit.ellipse);
+  measured.dependence = fit.validation.dependence;
+  measured.stated = fit.validation.stated;
+  measured.relative = fit.validation.score;
+  measured.singleRows = fit.validation.singleRow;
+  if (fit.validation.recordingScore) {
+    measured.recording = fit.validation.recording;
+    measured.relativeRecording = fit.validation.recordingScore;
+  }
+  decoder_.model = std::move(fit.network);
+  recordResiduals(fit.validation.errors, samples_.area(fit.validation.fittedRows));
+}
+
 void DecoderTraining::fitRbf() {
+  if (trainsAsMeasured(samples_, options_)) return fitAsMeasured();
   RbfFit fit = trainRbf(inputs_, targets_, rbfOptions(options_, samples_.size()), stop_);
   decoder_.model = std::move(fit.network);
   decoder_.report = std::move(fit.report);
@@ -274,6 +329,7 @@ ForwardModel DecoderTraining::forwardModel() {
 }
 
 void DecoderTraining::fitAreas() {
+  if (decoder_.measured) return;
   if (samples_.hasTouches() || decoder_.place) return; // they lie on no area
   if (samples_.together() || samples_.areaCount < 2 || options_.decoder == DecoderKind::MaximumLikelihood) return;
   const Eigen::VectorXi& area = samples_.area;

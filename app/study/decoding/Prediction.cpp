@@ -3,6 +3,7 @@
 #include "app/study/Median.h"
 #include "app/study/decoding/CalibrationMark.h"
 #include "app/study/decoding/ConstantInputs.h"
+#include "app/study/decoding/MeasuredWords.h"
 #include "app/study/decoding/PredictionParts.h"
 #include "app/study/decoding/TwoStep.h"
 #include "model/base/Error.h"
@@ -19,6 +20,26 @@ namespace {
 constexpr double marginOfRange = 0.02;
 constexpr double marginDeviations = 4;
 
+/// Predictions of measured rows stay within the training range and so much of it on both sides.
+constexpr double limitBeyondRange = 0.1;
+
+Eigen::MatrixXd limited(const Decoder& decoder, Eigen::MatrixXd outputs) {
+  const auto limit = [&outputs](Eigen::Index first, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+    const Eigen::VectorXd margin = limitBeyondRange * (high - low);
+    for (auto column : outputs.middleRows(first, low.size()).colwise())
+      column = column.cwiseMax(low - margin).cwiseMin(high + margin).eval();
+  };
+  limit(0, decoder.low_N, decoder.high_N);
+  if (decoder.place) limit(decoder.outputs(), decoder.place->low_mm, decoder.place->high_mm);
+  return outputs;
+}
+
+/// What the decoder's model reads, for readings that have been held for long.
+Eigen::MatrixXd heldInputs(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs) {
+  return decoder.measured ? decoder.measured->stage.held(inputs) : Eigen::MatrixXd(inputs);
+}
+
+/// `inputs` are those of the model.
 Eigen::MatrixXd forcesOf(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs) {
   return std::visit(
       [&](const auto& model) -> Eigen::MatrixXd {
@@ -43,7 +64,7 @@ Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input
     shifted(d, 2 * d) += step(d);
     shifted(d, 2 * d + 1) -= step(d);
   }
-  const Eigen::MatrixXd forces = forcesOf(decoder, shifted);
+  const Eigen::MatrixXd forces = forcesOf(decoder, heldInputs(decoder, shifted));
   Eigen::MatrixXd slope(forces.rows(), n);
   for (Eigen::Index d = 0; d < n; ++d)
     slope.col(d) = step(d) > 0 ? Eigen::VectorXd((forces.col(2 * d) - forces.col(2 * d + 1)) / (2 * step(d)))
@@ -57,9 +78,8 @@ Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
   return std::visit(
       [&](const auto& model) -> Eigen::MatrixXd {
         if constexpr (requires { model.jacobian(input); })
-          return model.jacobian(input);
-        else
-          return differences(decoder, input);
+          if (!decoder.measured) return model.jacobian(input);
+        return differences(decoder, input);
       },
       decoder.model);
 }
@@ -154,7 +174,9 @@ bool setOwnDeviation(const Decoder& decoder, const Eigen::Ref<const Eigen::Matri
 void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                    const PredictOptions& options, Prediction& result) {
   const double further = furtherNoise(decoder, options);
-  if (!setOwnDeviation(decoder, inputs, result)) {
+  if (decoder.measured) {
+    result.standardDeviation_N = decoder.measured->deviation.at(result.forces_N);
+  } else if (!setOwnDeviation(decoder, inputs, result)) {
     const Eigen::VectorXd all = decoder.residual_N.rowwise().squaredNorm() / decoder.residual_N.cols();
     result.standardDeviation_N.resize(decoder.outputs() + (decoder.place ? 2 : 0), inputs.cols());
     if (decoder.place) result.standardDeviation_N.bottomRows<2>().colwise() = decoder.place->residual_mm;
@@ -244,6 +266,15 @@ void finish(const Decoder& decoder, Prediction& result) {
 
 namespace {
 
+/// Measured rows: by their distance from the training rows in their covariance.
+std::vector<bool> outsideEllipse(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& staged) {
+  std::vector<bool> flags;
+  const Eigen::MatrixXd scaled = std::get<RbfNetwork>(decoder.model).scaler.apply(staged);
+  for (const auto column : scaled.colwise())
+    flags.push_back(decoder.measured->ellipse.distance(column) > decoder.measured->ellipse.limit);
+  return flags;
+}
+
 std::vector<bool> outside(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double noise) {
   const DecoderInput& input = decoder.input;
   const Eigen::ArrayXd size = input.low.array().abs().max(input.high.array().abs());
@@ -300,12 +331,19 @@ Predictor::Predictor(const Decoder& decoder, const PredictOptions& options) : de
 }
 
 Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const {
+  requireNumbers(decoder_, inputs);
+  return (*this)(inputs, heldInputs(decoder_, inputs));
+}
+
+Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& staged) const {
   const Decoder& decoder = decoder_;
   const PredictOptions& options = options_;
   requireNumbers(decoder, inputs);
   Prediction result;
-  result.outsideTrainingRange = outside(decoder, inputs, options.noise);
-  if (options.noise > 1.5 * decoder.noise)
+  result.outsideTrainingRange =
+      decoder.measured ? outsideEllipse(decoder, staged) : outside(decoder, inputs, options.noise);
+  if (options.noise > 1.5 * decoder.noise && !decoder.measured)
     result.warnings.push_back("noise of " + text(options.noise) +
                               " exceeds the noise that the decoder was trained for (" + text(decoder.noise) +
                               "): the decoder may amplify it; train with this noise");
@@ -316,7 +354,8 @@ Prediction Predictor::operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs
   else if (touchInversion_)
     decodeTouches(decoder, *touches_, *touchInversion_, nullptr, inputs, options, result);
   else
-    result.forces_N = forcesOf(decoder, inputs);
+    result.forces_N = forcesOf(decoder, staged);
+  if (decoder.measured) result.forces_N = limited(decoder, std::move(result.forces_N));
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
   result.microsecondsPerSample = inputs.cols() > 0 ? time.count() / static_cast<double>(inputs.cols()) : 0;
   if (likelihood) {
@@ -338,9 +377,29 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 }
 
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {
-  Prediction result = predict(decoder, inputsOf(samples, decoder.input), options);
+  const Eigen::MatrixXd inputs = inputsOf(samples, decoder.input);
+  Prediction result = Predictor(decoder, options)(inputs, stagedInputs(decoder, samples, inputs));
   for (std::string& warning : otherSamples(decoder, samples)) result.warnings.push_back(std::move(warning));
+  if (std::string warning = decoder.measured ? outsideWarning(result.outsideTrainingRange) : ""; !warning.empty())
+    result.warnings.push_back(std::move(warning));
   return result;
+}
+
+Eigen::MatrixXd stagedInputs(const Decoder& decoder, const SampleSet& samples, const Eigen::MatrixXd& inputs) {
+  if (!decoder.measured) return inputs;
+  const InputStage& stage = decoder.measured->stage;
+  if (stage.transform != ReadingTransform::None && inputs.size() > 0 && !(inputs.minCoeff() > 0))
+    throw Error("readings: " +
+                gotExpected(inputs.minCoeff(), "",
+                            "above 0, as the network takes their " + kReadingTransforms.name(stage.transform)));
+  if (stage.hasMemory() && samples.times_s.rows() == 0 && samples.size() > 1)
+    throw Error("the network has a memory and needs the time of each sample; the samples have no time");
+  for (Eigen::Index i = 1; stage.hasMemory() && i < samples.size(); ++i)
+    if (samples.times_s(0, i) < samples.times_s(0, i - 1) &&
+        (samples.runs.rows() == 0 || samples.runs(0, i) == samples.runs(0, i - 1)))
+      throw Error("samples: row " + std::to_string(i) +
+                  " is earlier than the row before; the network has a memory and needs the rows in order of time");
+  return stage.apply(inputs, samples.times_s, samples.runs);
 }
 
 std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& samples) {

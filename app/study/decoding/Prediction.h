@@ -17,6 +17,10 @@ namespace palp {
 /// other sizes than the input wants.
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
+/// What a decoder's stage makes of the inputs of a set: its transform and its memory of what was before, run by run.
+/// Throws Error where a memory has no times, or rows out of order.
+Eigen::MatrixXd stagedInputs(const Decoder& decoder, const SampleSet& samples, const Eigen::MatrixXd& inputs);
+
 /// What presses, as far as the readings tell it: nothing that is seen above the noise, one touch as they were learned,
 /// or neither of these: two at once, another body.
 enum class Pressing { None, One, Other };
@@ -52,7 +56,11 @@ class Predictor {
 public:
   explicit Predictor(const Decoder& decoder, const PredictOptions& options = {});
   /// Inputs x samples. Throws Error where the number of inputs differs.
+  /// Of a decoder with a memory: for readings that have been held for long.
   [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const;
+  /// The same with what the decoder's stage makes of the inputs (stage inputs x samples).
+  [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& staged) const;
 
 private:
   const Decoder& decoder_;

@@ -1,5 +1,6 @@
 #include "app/study/decoding/TrainOptionTable.h"
 
+#include "model/base/Error.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
 
@@ -144,6 +145,56 @@ TrainOption centers() {
   return option;
 }
 
+bool isRbf(DecoderKind kind) {
+  return kind == DecoderKind::Rbf;
+}
+
+TrainOption memory() {
+  TrainOption option{.name = "memory",
+                     .key = "memory",
+                     .label = "memory",
+                     .help = "of measured samples: none, or time constants in s, for example 0.1,0.4 (default: by the "
+                             "validation)",
+                     .allowed = "none, or times above 0 in s",
+                     .applies = isRbf};
+  option.text = [](const TrainOptions& options) { return options.memory; };
+  option.set = [](TrainOptions& options, const std::string& text) {
+    try {
+      static_cast<void>(memoryTimes_s(text));
+    } catch (const Error&) { // the caller has the sentence
+      return false;
+    }
+    options.memory = text;
+    return true;
+  };
+  return option;
+}
+
+/// Of measured samples: what is not given is chosen by the validation.
+std::vector<TrainOption> ofMeasured() {
+  return {
+      choice({.name = "order",
+              .key = "order",
+              .label = "order of the rows",
+              .help = "of measured samples: how rows depend on each other (default: detected)",
+              .applies = isRbf},
+             &TrainOptions::order, kRowOrders),
+      choice({.name = "transform",
+              .key = "transform",
+              .label = "transform of the readings",
+              .help = "of measured samples: what is made of each reading (default: by the validation)",
+              .applies = isRbf},
+             &TrainOptions::transform, kReadingTransforms),
+      memory(),
+      choice({.name = "clock",
+              .key = "clock",
+              .label = "clock of the memory",
+              .help = "of measured samples: time, or rows where these are equally spaced in time (default time)",
+              .applies = isRbf},
+             &TrainOptions::clock, kMemoryClocks),
+  };
+}
+
 std::vector<TrainOption> sources() {
   return {
       choice({.name = "input",
@@ -268,7 +319,7 @@ std::vector<TrainOption> noiseAndSeed() {
 
 std::vector<TrainOption> table() {
   std::vector<TrainOption> all;
-  for (std::vector<TrainOption> part : {sources(), {spread(), centers()}, system(), noiseAndSeed()})
+  for (std::vector<TrainOption> part : {sources(), {spread(), centers()}, system(), noiseAndSeed(), ofMeasured()})
     for (TrainOption& option : part) all.push_back(std::move(option));
   for (TrainOption& option : all) option.initial = option.text(TrainOptions());
   return all;

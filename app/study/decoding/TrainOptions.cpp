@@ -3,6 +3,7 @@
 #include "app/study/decoding/TrainOptionTable.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
+#include "model/base/NumberText.h"
 
 #include <algorithm>
 #include <charconv>
@@ -73,6 +74,36 @@ std::string asCommand(const TrainOptions& options) {
   for (const TrainOption& option : trainOptionTable())
     if (option.alwaysInCommands || option.isSet(options)) text += " --" + option.name + " " + option.text(options);
   return text;
+}
+
+std::optional<std::vector<double>> memoryTimes_s(const std::string& memory) {
+  if (memory.empty()) return {};
+  std::vector<double> times_s;
+  if (memory == "none") return times_s;
+  for (std::size_t begin = 0; begin <= memory.size();) {
+    const std::size_t comma = std::min(memory.find(',', begin), memory.size());
+    const auto time_s = numberIn(memory.substr(begin, comma - begin));
+    if (!time_s || !(*time_s > 0))
+      throw Error("memory: " +
+                  gotExpected(quotedText(memory), "none, or time constants above 0 in s, for example 0.1,0.4"));
+    times_s.push_back(*time_s);
+    begin = comma + 1;
+  }
+  std::sort(times_s.begin(), times_s.end());
+  return times_s;
+}
+
+bool trainsAsMeasured(const SampleSet& samples, const TrainOptions& options) {
+  return samples.origin.imported() && !samples.together() && options.decoder == DecoderKind::Rbf &&
+         options.mode == DecoderMode::Default && options.noise == 0 && !options.scaling && !options.solver &&
+         !options.tail && !options.convention && !options.centerChoice && !options.allCenters &&
+         options.forgetting == 1;
+}
+
+void takeDefaultsOf(const SampleSet& samples, bool inputIsGiven, bool rowsAreGiven, TrainOptions& options) {
+  if (samples.displacements_mm.rows() > 0) return;
+  if (!inputIsGiven) options.input = InputKind::Resistance;
+  if (!rowsAreGiven) options.rows = "all";
 }
 
 std::vector<int> rowsNamed(const std::string& rows, int rowWires) {

@@ -89,6 +89,8 @@ ForceDecoder::ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional
   calibrationError_N_ = calibrationError_N(*decoder_).reshaped(3, measured_.cols());
   shown_.assign(static_cast<std::size_t>(decoder_->outputs() / 3), false);
   plausibility_.emplace(*decoder_);
+  if (decoder_->measured && decoder_->measured->stage.hasMemory())
+    memory_.emplace(decoder_->measured->stage.times_s, decoder_->measured->stage.longestGap_s);
   setNoise(decoder_->noise);
 }
 
@@ -140,6 +142,7 @@ void ForceDecoder::startTare(int frames) {
 void ForceDecoder::clearTare() {
   tareLeft_ = 0;
   tared_ = false;
+  if (memory_) memory_->reset();
   factor_.setOnes();
   meter_.restart();
   predictor_.reset();
@@ -155,7 +158,15 @@ PresentReadings ForceDecoder::presentIn(const BoardFrame& frame) const {
   return readings;
 }
 
-Prediction ForceDecoder::predicted(const Eigen::VectorXd& readings_ohm, const PresentReadings& readings) {
+Prediction ForceDecoder::predicted(double time_s, const Eigen::VectorXd& readings_ohm,
+                                   const PresentReadings& readings) {
+  if (readings.missing.empty() && memory_) {
+    const InputStage& stage = decoder_->measured->stage;
+    Eigen::MatrixXd staged = stage.held(readings_ohm);
+    const Eigen::VectorXd& differences = memory_->next(time_s, stage.signals(staged.topRows(readings_ohm.size())));
+    staged.bottomRows(differences.size()) = differences;
+    return (*predictor_)(readings_ohm, staged);
+  }
   if (readings.missing.empty()) return (*predictor_)(readings_ohm);
   if (!fewer_) fewer_ = std::make_unique<PartialPredictor>(*decoder_, predictorOptions_);
   return (*fewer_)(readings_ohm, readings);
@@ -208,6 +219,7 @@ void ForceDecoder::addToTare(const BoardFrame& frame) {
 void ForceDecoder::setTare(const Tare& tare) {
   if (tare.rest_ohm.rows() != rest_ohm_.rows() || tare.rest_ohm.cols() != rest_ohm_.cols()) return;
   tare_ = tare;
+  if (memory_) memory_->reset();
   factor_ = (tare.rest_ohm.array() > 0).select(rest_ohm_.array() / tare.rest_ohm.array(), 1.0);
   tareFrames_ = tare.frames;
   tareLeft_ = 0;
@@ -231,7 +243,7 @@ DecodedForces ForceDecoder::decode(const BoardFrame& frame) {
   const Eigen::VectorXd readings_ohm = inputOf(decoded.resistances_ohm, decoder_->input);
   Prediction prediction;
   try {
-    prediction = predicted(readings_ohm, readings);
+    prediction = predicted(frame.time_s, readings_ohm, readings);
   } catch (const NetworkError& undetermined) { // by the readings of this frame; the next one may have others
     decoded.reason = undetermined.what();
     return decoded;

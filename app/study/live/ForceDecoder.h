@@ -87,7 +87,8 @@ public:
 private:
   [[nodiscard]] PresentReadings presentIn(const BoardFrame& frame) const;
   [[nodiscard]] std::string reasonAgainst(const BoardFrame& frame, const PresentReadings& readings) const;
-  [[nodiscard]] Prediction predicted(const Eigen::VectorXd& readings_ohm, const PresentReadings& readings);
+  [[nodiscard]] Prediction predicted(double time_s, const Eigen::VectorXd& readings_ohm,
+                                     const PresentReadings& readings);
   void addToTare(const BoardFrame& frame);
   void followNoise(const Eigen::VectorXd& raw_ohm);
   void setNoise(double noise);
@@ -101,6 +102,7 @@ private:
   std::optional<Predictor> predictor_; ///< for the noise now
   PredictOptions predictorOptions_;
   std::unique_ptr<PartialPredictor> fewer_; ///< the same where readings are missing; made when first needed
+  std::optional<MemoryStates> memory_;      ///< of a decoder with one
   Eigen::Matrix3Xd restError_N_;            ///< what the decoder says of the design at rest: there the truth is zero
   Eigen::Array<bool, 3, Eigen::Dynamic> measured_;
   Eigen::Matrix3Xd calibrationError_N_;
