@@ -126,10 +126,37 @@ SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool al
   return set;
 }
 
+namespace {
+
+/// Sessions of one rig: each is a run, or as many as it has, after those before.
+MergedSamples mergeMeasured(const std::vector<fs::path>& paths, const fs::path& path, bool force,
+                            const std::stop_token& stop) {
+  SampleSet all;
+  for (const fs::path& part : paths) {
+    SampleSet session = loadSamples(part, stop);
+    if (session.runs.rows() == 0) session.runs = Eigen::MatrixXd::Zero(1, session.size());
+    if (all.size() > 0) {
+      session.runs.array() += all.runs.maxCoeff() + 1;
+      if (session.origin.mesh != all.origin.mesh)
+        all.origin.mesh += "; " + session.origin.mesh.substr(std::string(kImportedFrom).size());
+      session.origin.mesh = all.origin.mesh;
+      if (const std::string differs = differenceOfHeads(all, session); !differs.empty())
+        throw Error(part.string() + ": cannot be joined with " + paths.front().string() + ": " + differs);
+    }
+    append(all, session);
+  }
+  saveSamples(path, all, force, stop);
+  return {static_cast<std::size_t>(all.size()), {}};
+}
+
+} // namespace
+
 MergedSamples mergeSampleFiles(const std::vector<fs::path>& paths, const fs::path& path, bool force,
                                const std::stop_token& stop) {
   if (paths.empty()) throw Error(path.string() + ": no shards to join; name at least one file");
   requireFree(path, force);
+  if (paths.size() > 1 && openSamples(paths.front(), stop)->head().origin.imported())
+    return mergeMeasured(paths, path, force, stop);
   const std::vector<Part> parts = readHeads(paths, stop);
   SampleSet head = parts[0].head;
   head.origin.firstSample = 0;
