@@ -147,7 +147,8 @@ TEST_F(MeasuredTableTest, ForcesOfAnotherClockAreInterpolated) {
   std::string readings, forces;
   for (int i = 0; i < 40; ++i) readings += std::to_string(5 - i % 3) + " " + std::to_string(0.1 * i + 0.03) + "\n";
   for (int i = 5; i < 30; ++i) forces += std::to_string(-2.0 * i) + " " + std::to_string(0.1 * i) + "\n";
-  const auto map = file("map.json", R"({"palp_import": 1, "signals": {"columns": [1]}, "time": {"column": 2, "unit": "s"},
+  const auto map =
+      file("map.json", R"({"palp_import": 1, "signals": {"columns": [1]}, "time": {"column": 2, "unit": "s"},
     "forces": {"columns": [null, null, 1], "unit": "N", "table": 2, "time": {"column": 2, "unit": "s"}}})");
   const auto output = folder_.path() / "samples.csv";
   const Imported imported =

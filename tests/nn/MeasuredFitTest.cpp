@@ -3,6 +3,7 @@
 #include "nn/NetworkError.h"
 #include "nn/measured/GroupRidge.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kNoise = 5e-3;
 
-Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+Eigen::MatrixXd normalMatrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal;
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(engine); });
@@ -24,11 +25,12 @@ Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, unsigned s
 
 /// A rig of 12 resistances, exponential in three forces, with noise; each load held for `copies` rows.
 MeasuredRows rig(Eigen::Index loads, Eigen::Index copies, unsigned seed) {
-  const Eigen::MatrixXd linear = 0.02 * randomMatrix(3, 12, 7), square = 0.02 * randomMatrix(3, 12, 8);
-  const Eigen::MatrixXd forces = randomMatrix(loads, 3, seed).cwiseMax(-2).cwiseMin(2);
-  const Eigen::MatrixXd readings =
-      500 * (forces * linear + forces.cwiseAbs2() * square).array().exp().matrix();
-  MeasuredRows rows{Eigen::MatrixXd(loads * copies, 12), Eigen::MatrixXd(loads * copies, 3), {},
+  const Eigen::MatrixXd linear = 0.02 * normalMatrix(3, 12, 7), square = 0.02 * normalMatrix(3, 12, 8);
+  const Eigen::MatrixXd forces = normalMatrix(loads, 3, seed).cwiseMax(-2).cwiseMin(2);
+  const Eigen::MatrixXd readings = 500 * (forces * linear + forces.cwiseAbs2() * square).array().exp().matrix();
+  MeasuredRows rows{Eigen::MatrixXd(loads * copies, 12),
+                    Eigen::MatrixXd(loads * copies, 3),
+                    {},
                     Eigen::VectorXi::Zero(loads * copies)};
   for (Eigen::Index i = 0; i < loads * copies; ++i) {
     rows.readings.row(i) = readings.row(i / copies);
@@ -36,7 +38,7 @@ MeasuredRows rig(Eigen::Index loads, Eigen::Index copies, unsigned seed) {
   }
   const Eigen::RowVectorXd spread =
       (readings.rowwise() - readings.colwise().mean()).colwise().norm() / std::sqrt(static_cast<double>(loads));
-  rows.readings += kNoise * randomMatrix(loads * copies, 12, seed + 1) * spread.asDiagonal();
+  rows.readings += kNoise * normalMatrix(loads * copies, 12, seed + 1) * spread.asDiagonal();
   return rows;
 }
 
@@ -62,28 +64,28 @@ MeasuredRows slowSensor(Eigen::Index count, unsigned seed) {
     rows.targets(i, 0) = force;
     rows.readings.row(i) << 1 + 0.5 * force + state, 2 + 0.2 * force - 0.5 * state;
   }
-  rows.readings += 0.01 * randomMatrix(count, 2, seed + 1);
+  rows.readings += 0.01 * normalMatrix(count, 2, seed + 1);
   return rows;
 }
 
 /// rms error on other rows, as a share of the training forces' deviations.
 double metBy(const MeasuredFit& fit, const MeasuredRows& trained, const MeasuredRows& later) {
-  const Eigen::MatrixXd inputs = fit.stage.apply(later.readings.transpose(), later.times_s.transpose(),
-                                                 later.runs.cast<double>().transpose());
+  const Eigen::MatrixXd inputs =
+      fit.stage.apply(later.readings.transpose(), later.times_s.transpose(), later.runs.cast<double>().transpose());
   Eigen::MatrixXd predicted = fit.network.predict(inputs);
   for (auto column : predicted.colwise()) column = column.cwiseMax(fit.low).cwiseMin(fit.high).eval();
   double sum = 0;
   for (Eigen::Index j = 0; j < later.targets.cols(); ++j) {
     const auto column = trained.targets.col(j);
     const double variance = (column.array() - column.mean()).square().mean();
-    sum += (predicted.row(j).transpose() - later.targets.col(j)).squaredNorm() /
-           static_cast<double>(later.size()) / variance;
+    sum += (predicted.row(j).transpose() - later.targets.col(j)).squaredNorm() / static_cast<double>(later.size()) /
+           variance;
   }
   return std::sqrt(sum / static_cast<double>(later.targets.cols()));
 }
 
 TEST(GroupRidge, ErrorsOfGroupsLeftOutAreThoseOfFitsWithoutThem) {
-  const Eigen::MatrixXd a = randomMatrix(60, 7, 1), y = randomMatrix(60, 2, 2);
+  const Eigen::MatrixXd a = normalMatrix(60, 7, 1), y = normalMatrix(60, 2, 2);
   const GroupRidge all(a, y);
   Fold fold;
   for (Eigen::Index i = 10; i < 25; ++i) fold.leftOut.push_back(i);
@@ -103,8 +105,8 @@ TEST(GroupRidge, ErrorsOfGroupsLeftOutAreThoseOfFitsWithoutThem) {
     for (const Eigen::Index i : fold.judged)
       EXPECT_LT((errors.row(i) - (y.row(i) - ones.row(i) * x)).norm(), 1e-9) << lambda;
     EXPECT_EQ(errors.row(10).norm(), 0) << "left out, not judged";
-    EXPECT_LT((all.singleRowErrors(lambda).row(0) -
-               all.errors({{{0}, {0}}}, {lambda}, {}).front().row(0)).norm(), 1e-9);
+    EXPECT_LT((all.singleRowErrors(lambda).row(0) - all.errors({{{0}, {0}}}, {lambda}, {}).front().row(0)).norm(),
+              1e-9);
   }
 }
 
@@ -168,7 +170,7 @@ TEST(MeasuredFit, AMemoryIsTakenWhereTheSensorHasOneAndThereIsAClock) {
 
 TEST(MeasuredFit, AReadingOverDecadesIsTakenAsItsInverse) {
   MeasuredRows rows{Eigen::MatrixXd(400, 1), Eigen::MatrixXd(400, 1), {}, Eigen::VectorXi::Zero(400)};
-  const Eigen::MatrixXd noise = randomMatrix(400, 1, 4);
+  const Eigen::MatrixXd noise = normalMatrix(400, 1, 4);
   for (Eigen::Index i = 0; i < 400; ++i) {
     rows.targets(i, 0) = 0.01 + 5.0 * static_cast<double>((i * 37) % 400) / 400;
     rows.readings(i, 0) = (100 / rows.targets(i, 0)) * (1 + 0.01 * noise(i, 0)) + 20;
@@ -182,9 +184,9 @@ TEST(MeasuredFit, DeviationsHoldForTwoThirdsOfLaterErrors) {
   const MeasuredRows rows = rig(600, 1, 31), later = rig(600, 1, 41);
   const MeasuredFit fit = fitMeasured(rows, {});
   const Eigen::MatrixXd predicted = fit.network.predict(fit.stage.held(later.readings.transpose()));
-  const Eigen::MatrixXd within = ((predicted.transpose() - later.targets).cwiseAbs().transpose().array() <=
-                                  fit.deviation.at(predicted).array())
-                                     .cast<double>();
+  const Eigen::MatrixXd within =
+      ((predicted.transpose() - later.targets).cwiseAbs().transpose().array() <= fit.deviation.at(predicted).array())
+          .cast<double>();
   EXPECT_GT(within.mean(), 0.58);
   EXPECT_LT(within.mean(), 0.78);
 }
