@@ -2,8 +2,8 @@
 
 #include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
+#include "nn/baselines/RecursiveLeastSquares.h"
 #include "nn/linear/Lapack.h"
-#include "nn/rivals/RecursiveLeastSquares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ struct Triangular {
   Eigen::MatrixXd right;
 };
 
-/// Block of rows after block of rows, so that it can be stopped; twice as fast as to pivot all rows at once.
+/// Block of rows after block of rows, so that it can be stopped; twice as fast as pivoting over all rows.
 Triangular triangular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const std::stop_token& stop) {
   const Eigen::Index columns = a.cols();
   Triangular result{Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, b.cols())};

@@ -86,7 +86,7 @@ std::vector<LeaveOneOutResult> LeastSquaresSystem::leaveOneOut(double spread, co
   const lapack::ThinSvd svd =
       copies_ > 1 ? lapack::svdOfGram(system(spread, stop), stop) : lapack::thinSvd(system(spread, stop));
   // System = U diag(s) V^T: the hat matrix of the ridge is Q2 U diag(f) U^T Q2^T with f = s^2 / (s^2 + k ridge), and
-  // Q1 Q1^T of the exact tail beside it.
+  // Q1 Q1^T of the exact tail.
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);

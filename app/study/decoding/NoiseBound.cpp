@@ -5,7 +5,7 @@
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
-#include "nn/rivals/ForwardModel.h"
+#include "nn/baselines/ForwardModel.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

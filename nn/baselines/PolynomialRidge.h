@@ -13,12 +13,12 @@
 namespace palp {
 
 /// Least squares on all monomials of the inputs up to a degree. Degree 1 is plain linear least squares, the baseline.
-/// Higher ones stand in the form of a kernel, F(x) = sum_i w_i (1 + s(x).s(x_i) / size)^degree + b: the same as all
+/// Higher degrees take the form of a kernel, F(x) = sum_i w_i (1 + s(x).s(x_i) / size)^degree + b: the same as all
 /// monomials with a ridge, however many there are.
 struct PolynomialRidge {
   int degree = 1;
   FeatureScaler scaler;
-  double size = 1;         ///< what the scaled inputs' products are divided by
+  double size = 1;         ///< divisor of the scaled inputs' products
   Eigen::MatrixXd centers; ///< scaled inputs x samples; degree 1: empty
   Eigen::MatrixXd weights; ///< outputs x samples; degree 1: outputs x scaled inputs
   Eigen::VectorXd bias;

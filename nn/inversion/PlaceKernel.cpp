@@ -1,4 +1,4 @@
-#include "nn/rivals/PlaceKernel.h"
+#include "nn/inversion/PlaceKernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 namespace palp {
 
 Eigen::MatrixXi placeMonomials(Eigen::Index inputs, const std::vector<Eigen::Index>& others,
-                               const std::vector<int>& strengths, int degree) {
+                               const std::vector<int>& amplitudes, int degree) {
   std::vector<Eigen::VectorXi> all;
-  const int least = strengths.empty() ? 0 : 1;
+  const int least = amplitudes.empty() ? 0 : 1;
   for (int total = least; total <= degree; ++total) {
     Eigen::VectorXi now = Eigen::VectorXi::Zero(inputs);
     const auto fill = [&](const auto& self, std::size_t k, int left) -> void {
       if (k == others.size()) {
-        const bool strong = std::any_of(strengths.begin(), strengths.end(), [&](int s) { return now(s) > 0; });
+        const bool strong = std::any_of(amplitudes.begin(), amplitudes.end(), [&](int s) { return now(s) > 0; });
         if (left == 0 && (least == 0 || strong)) all.push_back(now);
         return;
       }
@@ -30,11 +30,11 @@ Eigen::MatrixXi placeMonomials(Eigen::Index inputs, const std::vector<Eigen::Ind
   return exponents;
 }
 
-Eigen::MatrixXd monomialsOf(const SplineTable& form, const Eigen::MatrixXd& inputs, double reach, int least) {
+Eigen::MatrixXd monomialsOf(const SplineTable& form, const Eigen::MatrixXd& inputs, double decay, int least) {
   Eigen::MatrixXd all(form.terms(), inputs.cols());
   for (Eigen::Index j = 0; j < form.terms(); ++j) {
     Eigen::ArrayXd value =
-        Eigen::ArrayXd::Constant(inputs.cols(), std::pow(reach, form.exponents.col(j).sum() - least));
+        Eigen::ArrayXd::Constant(inputs.cols(), std::pow(decay, form.exponents.col(j).sum() - least));
     for (Eigen::Index k = 0; k < form.inputs(); ++k)
       for (int power = 0; power < form.exponents(k, j); ++power)
         value *= inputs.row(k).transpose().array() + form.shift(k);

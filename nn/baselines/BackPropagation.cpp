@@ -1,4 +1,4 @@
-#include "nn/rivals/BackPropagation.h"
+#include "nn/baselines/BackPropagation.h"
 
 #include "model/base/Cancelled.h"
 #include "model/base/GotExpected.h"
@@ -132,7 +132,7 @@ Eigen::MatrixXd principalDirections(const Eigen::MatrixXd& scaled, double noise)
   const double least = std::max(kLeastDirection * svd.values(0), noise * size);
   Eigen::Index kept = 0;
   while (kept < std::min(kMostDirections, svd.values.size()) && svd.values(kept) > least) ++kept;
-  if (kept == 0 && svd.values(0) > 0) kept = 1; // nothing stands above the noise: the strongest direction stays
+  if (kept == 0 && svd.values(0) > 0) kept = 1; // nothing exceeds the noise: keep the strongest direction
   return (svd.values.head(kept).cwiseInverse() * size).asDiagonal() * svd.u.leftCols(kept).transpose();
 }
 

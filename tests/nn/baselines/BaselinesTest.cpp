@@ -2,11 +2,11 @@
 #include "nn/NoisyCopies.h"
 #include "nn/RelativeError.h"
 #include "nn/SpreadSweep.h"
-#include "nn/rivals/BackPropagation.h"
-#include "nn/rivals/ForwardModel.h"
-#include "nn/rivals/GaussianProcess.h"
-#include "nn/rivals/PolynomialRidge.h"
-#include "nn/rivals/RecursiveLeastSquares.h"
+#include "nn/baselines/BackPropagation.h"
+#include "nn/baselines/ForwardModel.h"
+#include "nn/baselines/GaussianProcess.h"
+#include "nn/baselines/PolynomialRidge.h"
+#include "nn/baselines/RecursiveLeastSquares.h"
 #include "tests/nn/Touches.h"
 
 #include <Eigen/Cholesky>
@@ -72,8 +72,8 @@ TEST(BackPropagation, LearnsTheMap) {
   EXPECT_EQ(fit.heldOutResiduals.cols(), fit.heldOut.size());
 }
 
-/// The map's directions reach from the causes down to rounding; those below the noise must not be blown up to the size
-/// of the others.
+/// The map's directions reach from the parameters down to rounding; those below the noise must not be blown up to the
+/// size of the others.
 TEST(BackPropagation, LearnsTheMapThroughNoise) {
   const test::Touches many = test::touches(100, 60, 3), others = test::touches(20, 60, 4);
   BackPropagationOptions options;
@@ -121,7 +121,7 @@ TEST(MaximumLikelihood, FindsPlaceAndCausesAndKnowsItsDeviation) {
     const LikelihoodEstimate estimate = maximumLikelihood(model, noisy.col(i));
     right += estimate.classIndex == fresh.places(i);
     EXPECT_GT(estimate.confidence, 1.0 / 6 - 1e-12);
-    error.col(i) = estimate.causes - fresh.targets.col(i);
+    error.col(i) = estimate.parameters - fresh.targets.col(i);
     deviation.col(i) = estimate.standardDeviation;
   }
   EXPECT_GT(right, 0.95 * static_cast<double>(noisy.cols()));

@@ -1,9 +1,9 @@
-#include "nn/rivals/KnownTable.h"
+#include "nn/inversion/PriorTable.h"
 
 #include "model/base/Cancelled.h"
 #include "model/base/PositiveSolve.h"
 #include "nn/NetworkError.h"
-#include "nn/rivals/PlaceKernel.h"
+#include "nn/inversion/PlaceKernel.h"
 
 #include <cmath>
 #include <numbers>
@@ -12,7 +12,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kSmallRidge = 1e-12; // of the trace: what rounding leaves undetermined
+constexpr double kSmallRidge = 1e-12; // of the trace: regularises directions lost to rounding
 
 /// Solves a x = b for a symmetric semidefinite a.
 Eigen::MatrixXd solveSemidefinite(Eigen::MatrixXd a, const Eigen::MatrixXd& b) {
@@ -29,19 +29,19 @@ std::vector<Eigen::Index> otherInputs(const SplineTable& form) {
   return others;
 }
 
-/// A grid of the causes that are no places, Chebyshev's points along each, and what makes values there the coefficients
-/// of monomials.
-struct OtherCauses {
-  Eigen::MatrixXd points;      ///< inputs x points; places 0
+/// A grid of the parameters other than the position, Chebyshev's points along each, and the matrix that turns values
+/// there into coefficients of monomials.
+struct OtherParameters {
+  Eigen::MatrixXd points;      ///< inputs x points; 0 for the position
   Eigen::MatrixXd toMonomials; ///< points x terms
 };
 
-OtherCauses otherCauses(const SplineTable& form, bool strengths, const Eigen::MatrixXd& scaled) {
+OtherParameters otherParameters(const SplineTable& form, bool amplitudes, const Eigen::MatrixXd& scaled) {
   const std::vector<Eigen::Index> others = otherInputs(form);
   const int levels = others.size() <= 2 ? form.exponents.maxCoeff() + 1 : 3;
   Eigen::Index count = 1;
   for (std::size_t k = 0; k < others.size(); ++k) count *= levels;
-  OtherCauses grid{Eigen::MatrixXd::Zero(scaled.rows(), count), {}};
+  OtherParameters grid{Eigen::MatrixXd::Zero(scaled.rows(), count), {}};
   for (Eigen::Index i = 0; i < count; ++i) {
     Eigen::Index rest = i;
     for (const Eigen::Index k : others) {
@@ -51,14 +51,14 @@ OtherCauses otherCauses(const SplineTable& form, bool strengths, const Eigen::Ma
       rest /= levels;
     }
   }
-  const Eigen::MatrixXd terms = monomialsOf(form, grid.points, 1, strengths ? 1 : 0);
+  const Eigen::MatrixXd terms = monomialsOf(form, grid.points, 1, amplitudes ? 1 : 0);
   grid.toMonomials = terms.transpose() * solveSemidefinite(terms * terms.transpose(),
                                                            Eigen::MatrixXd::Identity(terms.rows(), terms.rows()));
   return grid;
 }
 
-/// Fills a table whose rest is there, a line of nodes at once.
-void fill(SplineTable& table, const OtherCauses& grid, const KnownComponents& of, const std::stop_token& stop) {
+/// Fills a table that has its values at rest, one line of nodes at a time.
+void fill(SplineTable& table, const OtherParameters& grid, const PriorComponents& of, const std::stop_token& stop) {
   const Eigen::Index count = grid.points.cols();
   Eigen::MatrixXd values(table.outputs(), table.terms() * table.nodes[0] * table.nodes[1]);
   for (int y = 0; y < table.nodes[1]; ++y) {
@@ -80,13 +80,13 @@ void fill(SplineTable& table, const OtherCauses& grid, const KnownComponents& of
 
 } // namespace
 
-SplineTable knownTable(const SplineTable& form, const std::vector<int>& strengths, const Eigen::MatrixXd& scaled,
-                       const KnownComponents& known, const std::stop_token& stop) {
+SplineTable priorTable(const SplineTable& form, const std::vector<int>& amplitudes, const Eigen::MatrixXd& scaled,
+                       const PriorComponents& prior, const std::stop_token& stop) {
   SplineTable table = form;
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(form.inputs(), 1);
-  for (const int k : strengths) rest(k, 0) = -form.shift(k);
-  table.rest = known(rest);
-  fill(table, otherCauses(form, !strengths.empty(), scaled), known, stop);
+  for (const int k : amplitudes) rest(k, 0) = -form.shift(k);
+  table.rest = prior(rest);
+  fill(table, otherParameters(form, !amplitudes.empty(), scaled), prior, stop);
   return table;
 }
 

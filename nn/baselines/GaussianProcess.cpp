@@ -1,4 +1,4 @@
-#include "nn/rivals/GaussianProcess.h"
+#include "nn/baselines/GaussianProcess.h"
 
 #include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"

@@ -1,4 +1,4 @@
-#include "nn/rivals/MirrorGroup.h"
+#include "nn/inversion/MirrorGroup.h"
 
 #include "nn/NetworkError.h"
 
@@ -7,7 +7,7 @@
 
 namespace palp {
 
-MirrorGroup::MirrorGroup(const std::vector<KernelMirror>& mirrors, Eigen::Index measurements, Eigen::Index causes)
+MirrorGroup::MirrorGroup(const std::vector<KernelMirror>& mirrors, Eigen::Index measurements, Eigen::Index parameters)
     : mirrors_(mirrors) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(measurements));
   std::iota(order.begin(), order.end(), Eigen::Index(0));
@@ -17,7 +17,7 @@ MirrorGroup::MirrorGroup(const std::vector<KernelMirror>& mirrors, Eigen::Index 
     bool sound = std::is_permutation(taken.begin(), taken.end(), order.begin(), order.end());
     for (std::size_t k = 0; sound && k < taken.size(); ++k)
       sound = taken[static_cast<std::size_t>(taken[k])] == static_cast<Eigen::Index>(k);
-    for (const auto& [cause, about] : mirror.about) sound = sound && cause >= 0 && cause < causes;
+    for (const auto& [parameter, about] : mirror.about) sound = sound && parameter >= 0 && parameter < parameters;
     if (!sound) throw NetworkError("a mirror must exchange measurements in pairs, and reflect existing parameters");
     for (std::size_t k = 0, before = order_.size(); k < before; ++k) {
       std::vector<Eigen::Index> both = order_[k];
@@ -34,12 +34,12 @@ Eigen::MatrixXd MirrorGroup::part(const Eigen::MatrixXd& measurements, int parit
   return sum / size();
 }
 
-Eigen::MatrixXd MirrorGroup::image(Eigen::MatrixXd causes, int element) const {
+Eigen::MatrixXd MirrorGroup::image(Eigen::MatrixXd parameters, int element) const {
   for (std::size_t k = 0; k < mirrors_.size(); ++k)
     if ((static_cast<unsigned>(element) >> k & 1U) != 0)
-      for (const auto& [cause, about] : mirrors_[k].about)
-        causes.row(cause) = (2 * about - causes.row(cause).array()).matrix();
-  return causes;
+      for (const auto& [parameter, about] : mirrors_[k].about)
+        parameters.row(parameter) = (2 * about - parameters.row(parameter).array()).matrix();
+  return parameters;
 }
 
 } // namespace palp

@@ -1,4 +1,4 @@
-#include "nn/rivals/KernelInversion.h"
+#include "nn/inversion/KernelInversion.h"
 
 #include "model/base/PositiveSolve.h"
 #include "nn/linear/Lapack.h"
@@ -10,34 +10,36 @@ namespace palp {
 
 namespace {
 
-constexpr int kStarts = 6;
-constexpr int kNearest = 2; // of them: few samples know so little that each leads elsewhere; the others stand apart
-constexpr double kExplained = 2; // deviations of chi-square above its mean: a touch that leaves less is taken
-constexpr double kWild = 1e100;  // of what is measured, which more does not make worse: its square is still a number
+constexpr int kInitialGuesses = 6;
+constexpr int kNearest =
+    2; // of them, wherever they are: with few samples neighbours lead elsewhere; the others are apart
+constexpr double kExplained =
+    2; // deviations of chi-square above its mean: an estimate with a smaller residual is accepted
+constexpr double kWild = 1e100; // largest measurement: its square is still finite
 constexpr int kMostSteps = 20;
-constexpr double kSmallStep = 0.01;                         // of a deviation that is left to the causes
-constexpr double kBeyond = 0.1;                             // of its range that a cause may lie outside
-constexpr double kLeastStrength = 0.02, kMostStrength = 50; // times that of the sample an inversion begins at
+constexpr double kSmallStep = 0.01;                           // of a posterior deviation of the parameters
+constexpr double kBeyond = 0.1;                               // share of its range by which a parameter may exceed it
+constexpr double kLeastAmplitude = 0.02, kMostAmplitude = 50; // times that of the sample an inversion starts from
 
 } // namespace
 
 std::vector<Eigen::Index> KernelForwardModel::varied() const {
   std::vector<Eigen::Index> inputs;
-  for (Eigen::Index k = 0; k < causes(); ++k)
-    if (causeFactor(k) != 0) inputs.push_back(k);
+  for (Eigen::Index k = 0; k < parameters(); ++k)
+    if (parameterFactor(k) != 0) inputs.push_back(k);
   return inputs;
 }
 
-Eigen::MatrixXd KernelForwardModel::slopes(const Eigen::Ref<const Eigen::VectorXd>& causes) const {
+Eigen::MatrixXd KernelForwardModel::slopes(const Eigen::Ref<const Eigen::VectorXd>& parameters) const {
   const std::vector<Eigen::Index> inputs = varied();
-  const Eigen::VectorXd scaled = (causes - causeOffset).cwiseProduct(causeFactor)(inputs);
+  const Eigen::VectorXd scaled = (parameters - parameterOffset).cwiseProduct(parameterFactor)(inputs);
   Eigen::VectorXd value;
-  Eigen::MatrixXd slope, all = Eigen::MatrixXd::Zero(components(), this->causes());
+  Eigen::MatrixXd slope, all = Eigen::MatrixXd::Zero(components(), this->parameters());
   if (table.inputs() > 0)
     table.evaluate(scaled, value, slope);
   else
     slope = network.jacobian(scaled);
-  all(Eigen::all, inputs) = slope * causeFactor(inputs).asDiagonal();
+  all(Eigen::all, inputs) = slope * parameterFactor(inputs).asDiagonal();
   return all;
 }
 
@@ -50,8 +52,8 @@ void KernelInversion::evaluate(const Eigen::Ref<const Eigen::VectorXd>& scaled, 
 
 struct KernelInversion::Trial {
   Eigen::VectorXd scaled;
-  Eigen::VectorXd left;  ///< weighted
-  Eigen::MatrixXd slope; ///< weighted
+  Eigen::VectorXd residual; ///< weighted
+  Eigen::MatrixXd slope;    ///< weighted
   double cost = INFINITY;
   Eigen::MatrixXd information;
 };
@@ -59,47 +61,47 @@ struct KernelInversion::Trial {
 KernelInversion::KernelInversion(const KernelForwardModel& model)
     : model_(model), table_(model.table), varied_(model.varied()), weight_(model.deviation.cwiseInverse()),
       weighted_(weight_.asDiagonal() * model.projection) {
-  precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
+  precision_ = (model.parameterFactor.array() * model.parameterDeviation.array())(varied_).square().inverse();
   const bool table = model.table.inputs() > 0;
-  starts_ = table ? model.starts : model.network.centers;
+  initialGuesses_ = table ? model.initialGuesses : model.network.centers;
   rest_ = table ? Eigen::VectorXd(weight_.cwiseProduct(model.table.rest))
                 : Eigen::VectorXd(Eigen::VectorXd::Zero(weight_.size()));
-  expected_.resize(weight_.size(), starts_.cols());
+  expected_.resize(weight_.size(), initialGuesses_.cols());
   if (table) {
     Eigen::VectorXd value;
     Eigen::MatrixXd slope;
-    for (Eigen::Index i = 0; i < starts_.cols(); ++i) {
-      evaluate(starts_.col(i), value, slope);
+    for (Eigen::Index i = 0; i < initialGuesses_.cols(); ++i) {
+      evaluate(initialGuesses_.col(i), value, slope);
       expected_.col(i) = weight_.cwiseProduct(value) - rest_;
     }
   } else {
-    expected_ = weight_.asDiagonal() * model.network.predict(starts_);
+    expected_ = weight_.asDiagonal() * model.network.predict(initialGuesses_);
   }
   expectedSquare_ = expected_.colwise().squaredNorm();
   double area = 1;
   int places = 0;
   for (const int place : model.table.place)
     if (table && place >= 0) {
-      area *= starts_.row(place).maxCoeff() - starts_.row(place).minCoeff();
+      area *= initialGuesses_.row(place).maxCoeff() - initialGuesses_.row(place).minCoeff();
       ++places;
     }
-  if (places > 0) beside_ = std::pow(area / static_cast<double>(starts_.cols()), 1. / places);
+  if (places > 0) spacing_ = std::pow(area / static_cast<double>(initialGuesses_.cols()), 1. / places);
 }
 
 double KernelInversion::squareApart(Eigen::Index start, Eigen::Index other) const {
   double square = 0;
   for (const int place : model_.table.place)
-    if (place >= 0) square += std::pow(starts_(place, start) - starts_(place, other), 2);
+    if (place >= 0) square += std::pow(initialGuesses_(place, start) - initialGuesses_(place, other), 2);
   return square;
 }
 
 KernelInversion::Trial KernelInversion::trialAt(Eigen::VectorXd scaled, const Eigen::VectorXd& wanted) const {
   Trial trial;
   trial.scaled = std::move(scaled);
-  evaluate(trial.scaled, trial.left, trial.slope);
-  trial.left = wanted - weight_.cwiseProduct(trial.left);
+  evaluate(trial.scaled, trial.residual, trial.slope);
+  trial.residual = wanted - weight_.cwiseProduct(trial.residual);
   trial.slope = weight_.asDiagonal() * trial.slope;
-  trial.cost = trial.left.squaredNorm() + precision_.dot(trial.scaled.cwiseAbs2());
+  trial.cost = trial.residual.squaredNorm() + precision_.dot(trial.scaled.cwiseAbs2());
   trial.information = lapack::product(trial.slope, true, trial.slope, false);
   trial.information.diagonal() += precision_;
   return trial;
@@ -110,8 +112,8 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   Trial now = trialAt(start.cwiseMin(most).cwiseMax(-most), wanted);
   double damping = 1e-3;
   for (int step = 0; step < kMostSteps; ++step) {
-    Eigen::VectorXd uphill = now.slope.transpose() * now.left - precision_.cwiseProduct(now.scaled);
-    // Causes at the end of what they may be that would go beyond stay while the others move.
+    Eigen::VectorXd uphill = now.slope.transpose() * now.residual - precision_.cwiseProduct(now.scaled);
+    // Parameters at their bound that would leave it are kept while the others move.
     const Eigen::ArrayXd moves =
         (now.scaled.cwiseAbs().array() < most.array() || uphill.cwiseProduct(now.scaled).array() < 0).cast<double>();
     uphill.array() *= moves;
@@ -139,26 +141,27 @@ KernelInversion::Trial KernelInversion::descend(const Eigen::VectorXd& start, co
   return now;
 }
 
-/// The samples whose components are nearest to these, the nearest first; from the second on each keeps away those
-/// beside it. Of a table as strong as fits best.
-std::vector<Eigen::VectorXd> KernelInversion::startsFor(const Eigen::VectorXd& wanted) const {
+/// The samples whose components are nearest to these, the nearest first; from the second on each excludes its
+/// neighbours. With a table the amplitudes are scaled to the best fit.
+std::vector<Eigen::VectorXd> KernelInversion::initialGuessesFor(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd off = wanted - rest_;
   const Eigen::VectorXd along = lapack::product(expected_, true, off, false);
-  Eigen::VectorXd strength = Eigen::VectorXd::Ones(along.size());
-  if (!model_.strengths.empty())
-    strength = along.cwiseQuotient(expectedSquare_.cwiseMax(1e-12)).cwiseMax(kLeastStrength).cwiseMin(kMostStrength);
-  Eigen::VectorXd far = strength.cwiseProduct(strength.cwiseProduct(expectedSquare_) - 2 * along);
+  Eigen::VectorXd amplitude = Eigen::VectorXd::Ones(along.size());
+  if (!model_.amplitudes.empty())
+    amplitude = along.cwiseQuotient(expectedSquare_.cwiseMax(1e-12)).cwiseMax(kLeastAmplitude).cwiseMin(kMostAmplitude);
+  Eigen::VectorXd far = amplitude.cwiseProduct(amplitude.cwiseProduct(expectedSquare_) - 2 * along);
   std::vector<Eigen::VectorXd> result;
-  for (int i = 0; i < kStarts; ++i) {
+  for (int i = 0; i < kInitialGuesses; ++i) {
     Eigen::Index k = 0;
     if (!(far.minCoeff(&k) < INFINITY)) break;
-    Eigen::VectorXd start = starts_.col(k);
-    for (const int cause : model_.strengths)
-      start(cause) = strength(k) * (start(cause) + model_.table.shift(cause)) - model_.table.shift(cause);
+    Eigen::VectorXd start = initialGuesses_.col(k);
+    for (const int parameter : model_.amplitudes)
+      start(parameter) =
+          amplitude(k) * (start(parameter) + model_.table.shift(parameter)) - model_.table.shift(parameter);
     result.push_back(std::move(start));
     far(k) = INFINITY;
     for (Eigen::Index other = 0; i + 1 >= kNearest && other < far.size(); ++other)
-      if (squareApart(k, other) < beside_ * beside_) far(other) = INFINITY;
+      if (squareApart(k, other) < spacing_ * spacing_) far(other) = INFINITY;
   }
   return result;
 }
@@ -167,26 +170,26 @@ KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>
   const Eigen::VectorXd change = (measurement - model_.measurementOffset).cwiseMax(-kWild).cwiseMin(kWild);
   const Eigen::VectorXd wanted = lapack::product(weighted_, false, change, false);
   Trial best;
-  for (Eigen::VectorXd& start : startsFor(wanted)) {
+  for (Eigen::VectorXd& start : initialGuessesFor(wanted)) {
     Trial trial = descend(start, wanted);
     if (trial.cost < best.cost) best = std::move(trial);
-    const auto count = static_cast<double>(best.left.size());
-    if (best.left.squaredNorm() < count + kExplained * std::sqrt(2 * count)) break; // explained: no other is needed
+    const auto count = static_cast<double>(best.residual.size());
+    if (best.residual.squaredNorm() < count + kExplained * std::sqrt(2 * count)) break; // explained: no other is needed
   }
   KernelEstimate estimate;
-  estimate.causes = model_.causeOffset;
-  estimate.standardDeviation = Eigen::VectorXd::Zero(model_.causes());
+  estimate.parameters = model_.parameterOffset;
+  estimate.standardDeviation = Eigen::VectorXd::Zero(model_.parameters());
   const Eigen::Index unknowns = best.information.rows();
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(unknowns, unknowns, INFINITY); // where nothing is known
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(unknowns, unknowns, INFINITY); // where nothing is determined
   if (const auto factor = positiveFactor(best.information))
     covariance = factor->solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   for (std::size_t k = 0; k < varied_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double factor = model_.causeFactor(varied_[k]);
-    estimate.causes(varied_[k]) += best.scaled(i) / factor;
+    const double factor = model_.parameterFactor(varied_[k]);
+    estimate.parameters(varied_[k]) += best.scaled(i) / factor;
     estimate.standardDeviation(varied_[k]) = model_.inflation(varied_[k]) * std::sqrt(covariance(i, i)) / factor;
   }
-  estimate.chiSquare = best.left.squaredNorm() / static_cast<double>(best.left.size());
+  estimate.chiSquare = best.residual.squaredNorm() / static_cast<double>(best.residual.size());
   if (model_.table.inputs() > 0)
     estimate.change = (wanted - rest_).cwiseQuotient(weight_).squaredNorm() / static_cast<double>(wanted.size());
   return estimate;

@@ -1,4 +1,4 @@
-#include "nn/rivals/PolynomialRidge.h"
+#include "nn/baselines/PolynomialRidge.h"
 
 #include "model/base/Cancelled.h"
 #include "model/base/GotExpected.h"

@@ -1,4 +1,4 @@
-#include "nn/rivals/RecursiveLeastSquares.h"
+#include "nn/baselines/RecursiveLeastSquares.h"
 
 #include "model/base/GotExpected.h"
 #include "nn/NetworkError.h"

@@ -1,12 +1,12 @@
-#include "nn/rivals/ForwardProcess.h"
+#include "nn/inversion/ForwardProcess.h"
 
 #include "model/base/Cancelled.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Parallel.h"
 #include "nn/NetworkError.h"
+#include "nn/inversion/PlaceKernel.h"
+#include "nn/inversion/PriorTable.h"
 #include "nn/linear/Lapack.h"
-#include "nn/rivals/KnownTable.h"
-#include "nn/rivals/PlaceKernel.h"
 
 #include <algorithm>
 #include <array>
@@ -18,31 +18,32 @@ namespace palp {
 namespace {
 
 constexpr int kMostComponents = 160;
-constexpr double kLeastSignal = 0.1;      // rms of a component that is kept, in standard deviations of the noise
-constexpr Eigen::Index kMostStarts = 400; // samples kept for the inversion to begin at
-constexpr Eigen::Index kMostTried = 2000; // samples on which widths are chosen
+constexpr double kLeastSignal = 0.1; // rms of a component that is kept, in standard deviations of the noise
+constexpr Eigen::Index kMostInitialGuesses = 400; // samples kept as initial guesses
+constexpr Eigen::Index kMostTried = 2000;         // samples on which widths are chosen
 constexpr int kMostTerms = 60;
 constexpr int kMostDegree = 4;
-constexpr std::array kWidths{0.05, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45}; // of the places' range
-constexpr std::array kReaches{0.1, 0.3, 1.};                         // of each further degree's coefficients
-constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4, 1e-2}; // variance left to a sample, of the components' own
-/// Intervals of the table along the longer range of the places; of many samples, which know of shorter ways.
+constexpr std::array kWidths{0.05, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45}; // share of the positions' range
+constexpr std::array kDecays{0.1, 0.3, 1.};                          // of the coefficients from one degree to the next
+constexpr std::array kSmoothings{1e-8, 1e-6, 1e-4,
+                                 1e-2}; // variance of a sample's own error, relative to the components'
+/// Intervals of the table along the longer range of the positions; of many samples, which resolve shorter lengths.
 constexpr int kNodes = 50, kNodesOfMany = 80;
-constexpr double kBeyondRange = 0.1; // of its range that a place may lie outside
-constexpr double kRestVariance = 1;  // of what does not depend on the causes, in the components' own
+constexpr double kBeyondRange = 0.1; // share of its range by which a position may exceed it
+constexpr double kRestVariance = 1;  // of the part that does not depend on the parameters, relative to the components'
 constexpr const char* kNoFunction = "no smooth function interpolates the samples; check for duplicates";
 
 } // namespace
 
-ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen::MatrixXd& causes,
+ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen::MatrixXd& parameters,
                                const Eigen::VectorXi& groups, const KernelForwardOptions& options,
                                const std::stop_token& stop)
-    : options_(options), stop_(stop), mirrors_(options.mirrors, measurements.rows(), causes.rows()) {
-  const Eigen::VectorXd low = causes.rowwise().minCoeff(), high = causes.rowwise().maxCoeff();
+    : options_(options), stop_(stop), mirrors_(options.mirrors, measurements.rows(), parameters.rows()) {
+  const Eigen::VectorXd low = parameters.rowwise().minCoeff(), high = parameters.rowwise().maxCoeff();
   const Eigen::VectorXd range = high - low;
-  common_.causeOffset = (low + high) / 2;
-  common_.causeDeviation = range / std::sqrt(12.);
-  common_.causeFactor = Eigen::VectorXd::Zero(range.size());
+  common_.parameterOffset = (low + high) / 2;
+  common_.parameterDeviation = range / std::sqrt(12.);
+  common_.parameterFactor = Eigen::VectorXd::Zero(range.size());
   std::vector<Eigen::Index> others;
   std::vector<double> shift;
   std::size_t places = 0;
@@ -54,30 +55,30 @@ ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen:
       if (places == 2)
         throw NetworkError("varying parameters of group 0: " + gotExpected("3", "2 coordinates of the position"));
       form_.place[places++] = input;
-      common_.causeFactor(k) = 1;
+      common_.parameterFactor(k) = 1;
       range_ = std::max(range_, range(k));
       shift.push_back(0);
       continue;
     }
     others.push_back(input);
-    if (groups(k) == 1) common_.strengths.push_back(input);
-    // A strength counts from 0, anything else from its middle; both reach about 1.
+    if (groups(k) == 1) common_.amplitudes.push_back(input);
+    // A amplitude counts from 0, anything else from its middle; both decay about 1.
     const double size = groups(k) == 1 ? std::max(std::abs(low(k)), std::abs(high(k))) : range(k) / 2;
-    common_.causeFactor(k) = 1 / size;
-    shift.push_back(groups(k) == 1 ? common_.causeOffset(k) / size : 0);
+    common_.parameterFactor(k) = 1 / size;
+    shift.push_back(groups(k) == 1 ? common_.parameterOffset(k) / size : 0);
   }
   if (places == 0) throw NetworkError("the parameters of group 0 (the position) do not vary");
   form_.shift = Eigen::Map<Eigen::VectorXd>(shift.data(), static_cast<Eigen::Index>(shift.size()));
   int degree = kMostDegree;
-  do form_.exponents = placeMonomials(form_.inputs(), others, common_.strengths, degree);
+  do form_.exponents = placeMonomials(form_.inputs(), others, common_.amplitudes, degree);
   while (form_.terms() > kMostTerms && --degree > 1);
   for (int element = 0; element < mirrors_.size(); ++element) {
-    const Eigen::MatrixXd image = mirrors_.image(causes, element);
+    const Eigen::MatrixXd image = mirrors_.image(parameters, element);
     for (Eigen::Index k = 0; k < range.size(); ++k)
-      if (range(k) == 0 && image(k, 0) != causes(k, 0))
+      if (range(k) == 0 && image(k, 0) != parameters(k, 0))
         throw NetworkError("a mirror reflects a parameter that does not vary, to values that no sample has");
     images_.push_back(
-        (common_.causeFactor.asDiagonal() * (image.colwise() - common_.causeOffset))(varied_, Eigen::all));
+        (common_.parameterFactor.asDiagonal() * (image.colwise() - common_.parameterOffset))(varied_, Eigen::all));
   }
   // Mirrors leave the mean of all samples and their images as it is, and the noise.
   common_.measurementOffset = mirrors_.part(measurements.rowwise().mean(), 0);
@@ -87,10 +88,10 @@ ForwardProcess::ForwardProcess(const Eigen::MatrixXd& measurements, const Eigen:
   project(centred, std::max(options.relativeNoise, leastTouchNoise) * size);
   components_ = common_.projection * centred;
   placeNodes();
-  if (options.known) takeKnown();
+  if (options.priorMean) subtractPrior();
 }
 
-/// Principal components of the measurements in units of their noise, those of each parity side by side, the strongest
+/// Principal components of the measurements in units of their noise, those of each parity adjacent, the strongest
 /// first.
 void ForwardProcess::project(const Eigen::MatrixXd& centred, const Eigen::VectorXd& noise) {
   std::vector<lapack::SymmetricEigen> found;
@@ -118,7 +119,7 @@ void ForwardProcess::project(const Eigen::MatrixXd& centred, const Eigen::Vector
   }
 }
 
-/// Over the range of the places and what may lie beyond.
+/// Nodes over the range of the positions and a margin.
 void ForwardProcess::placeNodes() {
   const int most = images_[0].cols() < manyTouchSamples ? kNodes : kNodesOfMany;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
@@ -133,24 +134,24 @@ void ForwardProcess::placeNodes() {
   }
 }
 
-/// The known measurements as a table of the same form. The components keep what it leaves.
-void ForwardProcess::takeKnown() {
-  const auto known = [this](const Eigen::MatrixXd& scaled) { return knownAt(scaled); };
-  known_ = knownTable(form_, common_.strengths, images_[0], known, stop_);
+/// Stores the prior mean as a table of the same form and subtracts it from the components.
+void ForwardProcess::subtractPrior() {
+  const auto prior = [this](const Eigen::MatrixXd& scaled) { return priorAt(scaled); };
+  prior_ = priorTable(form_, common_.amplitudes, images_[0], prior, stop_);
   Eigen::VectorXd value;
   Eigen::MatrixXd slope;
   for (Eigen::Index i = 0; i < components_.cols(); ++i) {
-    known_.evaluate(images_[0].col(i), value, slope);
+    prior_.evaluate(images_[0].col(i), value, slope);
     components_.col(i) -= value;
   }
 }
 
-/// Components of what is known at scaled causes.
-Eigen::MatrixXd ForwardProcess::knownAt(const Eigen::MatrixXd& scaled) const {
-  Eigen::MatrixXd causes = common_.causeOffset.replicate(1, scaled.cols());
+/// Components of the prior mean at scaled parameters.
+Eigen::MatrixXd ForwardProcess::priorAt(const Eigen::MatrixXd& scaled) const {
+  Eigen::MatrixXd parameters = common_.parameterOffset.replicate(1, scaled.cols());
   for (std::size_t k = 0; k < varied_.size(); ++k)
-    causes.row(varied_[k]) += scaled.row(static_cast<Eigen::Index>(k)) / common_.causeFactor(varied_[k]);
-  return common_.projection * (options_.known(causes).colwise() - common_.measurementOffset);
+    parameters.row(varied_[k]) += scaled.row(static_cast<Eigen::Index>(k)) / common_.parameterFactor(varied_[k]);
+  return common_.projection * (options_.priorMean(parameters).colwise() - common_.measurementOffset);
 }
 
 Eigen::MatrixXd ForwardProcess::placesOf(const Eigen::MatrixXd& scaled) const {
@@ -160,7 +161,7 @@ Eigen::MatrixXd ForwardProcess::placesOf(const Eigen::MatrixXd& scaled) const {
   return places;
 }
 
-/// Of the samples with the images of the samples, for each of the mirrors' products; less v0.
+/// Covariances between the samples and their images, for each product of mirrors; without v0.
 std::vector<Eigen::MatrixXd> ForwardProcess::covariances(const std::vector<Eigen::Index>& samples,
                                                          const Smoothness& by) const {
   std::vector<Eigen::MatrixXd> result;
@@ -168,7 +169,7 @@ std::vector<Eigen::MatrixXd> ForwardProcess::covariances(const std::vector<Eigen
   for (std::size_t element = 0; element < imagesFor(by); ++element) {
     const Eigen::MatrixXd scaled = images_[element](Eigen::all, samples);
     const Eigen::MatrixXd placesThere = placesOf(scaled),
-                          termsThere = monomialsOf(form_, scaled, by.reach, common_.strengths.empty() ? 0 : 1);
+                          termsThere = monomialsOf(form_, scaled, by.decay, common_.amplitudes.empty() ? 0 : 1);
     if (result.empty()) {
       places = placesThere;
       terms = termsThere;
@@ -185,7 +186,7 @@ std::vector<ForwardProcess::Part> ForwardProcess::partsFor(const Smoothness& by)
   return {{0, 0, components_.rows()}};
 }
 
-/// None where a system is singular to rounding. Residuals by S. Sundararajan and S. S. Keerthi, 2001.
+/// Returns nullopt where a system is singular to rounding. Residuals by S. Sundararajan and S. S. Keerthi, 2001.
 std::optional<ForwardProcess::Fitted> ForwardProcess::fitted(const std::vector<Eigen::Index>& samples,
                                                              const Smoothness& by) const {
   const std::vector<Eigen::MatrixXd> ofImages = covariances(samples, by);
@@ -234,7 +235,7 @@ void ForwardProcess::chooseSmoothness() {
   for (int round = 0; round < 2; ++round) {
     const double before = best;
     along(&Smoothness::width, kWidths);
-    along(&Smoothness::reach, kReaches);
+    along(&Smoothness::decay, kDecays);
     along(&Smoothness::smoothing, kSmoothings);
     for (const double width : kWidths)
       if (Smoothness by = smoothness_; mirrors_.size() > 1 && by.mirrored) {
@@ -249,16 +250,15 @@ void ForwardProcess::chooseSmoothness() {
 
 SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, const Eigen::MatrixXd& weights) const {
   SplineTable table = form_;
-  // The covariance's monomials at the samples and their images, times the part of those at the table that is no
-  // monomial.
+  // The covariance's monomials at the samples and their images, times the constant factor of those at the table.
   std::vector<Eigen::MatrixXd> places, terms;
-  const int least = common_.strengths.empty() ? 0 : 1;
+  const int least = common_.amplitudes.empty() ? 0 : 1;
   for (std::size_t element = 0; element < imagesFor(smoothness_); ++element) {
     const Eigen::MatrixXd& image = images_[element];
     places.push_back(placesOf(image(Eigen::all, samples)));
-    terms.push_back(monomialsOf(form_, image(Eigen::all, samples), smoothness_.reach, least));
+    terms.push_back(monomialsOf(form_, image(Eigen::all, samples), smoothness_.decay, least));
     for (Eigen::Index j = 0; j < table.terms(); ++j)
-      terms.back().row(j) *= std::pow(smoothness_.reach, table.exponents.col(j).sum() - least);
+      terms.back().row(j) *= std::pow(smoothness_.decay, table.exponents.col(j).sum() - least);
   }
   const std::vector<Part> parts = partsFor(smoothness_);
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(weights.cols(), table.terms() * table.nodes[0] * table.nodes[1]);
@@ -286,11 +286,11 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
   if (parts[0].parity == 0)
     table.rest.head(parts[0].count) = static_cast<double>(places.size()) * kRestVariance *
                                       weights.leftCols(parts[0].count).colwise().sum().transpose();
-  if (known_.coefficients.size() > 0) {
-    table.coefficients += known_.coefficients;
-    table.rest += known_.rest;
+  if (prior_.coefficients.size() > 0) {
+    table.coefficients += prior_.coefficients;
+    table.rest += prior_.rest;
   }
-  table.round(); // short in its file
+  table.round(); // to keep its file short
   return table;
 }
 
@@ -299,11 +299,12 @@ KernelForwardModel ForwardProcess::modelOf(const std::vector<Eigen::Index>& samp
   const std::optional<Fitted> found = fitted(samples, smoothness_);
   if (!found) throw NetworkError(kNoFunction);
   model.table = tableOf(samples, found->weights);
-  const Eigen::Index starts = std::min<Eigen::Index>(kMostStarts, static_cast<Eigen::Index>(samples.size()));
-  model.starts = images_[0](Eigen::all, samples).leftCols(starts);
+  const Eigen::Index initialGuesses =
+      std::min<Eigen::Index>(kMostInitialGuesses, static_cast<Eigen::Index>(samples.size()));
+  model.initialGuesses = images_[0](Eigen::all, samples).leftCols(initialGuesses);
   const double noise = options_.relativeNoise > 0 ? 1 : 0;
   model.deviation = (noise + found->leaveOneOut.array().square().colwise().mean()).sqrt().cwiseMax(1e-12);
-  model.inflation = Eigen::VectorXd::Ones(model.causes());
+  model.inflation = Eigen::VectorXd::Ones(model.parameters());
   return model;
 }
 

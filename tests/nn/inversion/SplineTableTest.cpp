@@ -1,4 +1,4 @@
-#include "nn/rivals/SplineTable.h"
+#include "nn/inversion/SplineTable.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nn/rivals/SplineTable.h"
+#include "nn/inversion/SplineTable.h"
 
 #include "nn/linear/Lapack.h"
 #include "nn/linear/VectorKernels.h"
@@ -13,7 +13,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kSplines = 4; // that are not 0 at a place
+constexpr int kSplines = 4; // nonzero at a position
 
 std::size_t size(Eigen::Index count) {
   return static_cast<std::size_t>(count);
@@ -60,7 +60,7 @@ void SplineTable::evaluate(const Number* numbers, double unit, const Eigen::Ref<
   for (std::size_t axis = 0; axis < 2; ++axis)
     at[axis] = splinesAt(place[axis] < 0 ? low(static_cast<Eigen::Index>(axis)) : input(place[axis]),
                          low(static_cast<Eigen::Index>(axis)), step(static_cast<Eigen::Index>(axis)), nodes[axis]);
-  // What the splines make of the coefficients, outputs x terms: their value and its derivatives by the places.
+  // The splines' sums of the coefficients, outputs x terms: values and derivatives by the coordinates.
   const Eigen::Index block = outputs() * terms();
   Eigen::MatrixX3d atPlace(block, 3);
   Eigen::Matrix<double, kSplines * kSplines, 3> shares;

@@ -1,4 +1,4 @@
-#include "nn/rivals/ForwardModel.h"
+#include "nn/baselines/ForwardModel.h"
 
 #include "model/base/GotExpected.h"
 #include "model/base/PositiveSolve.h"
@@ -11,51 +11,51 @@
 
 namespace palp {
 
-Eigen::Index monomialCount(Eigen::Index causes, int degree) {
+Eigen::Index monomialCount(Eigen::Index parameters, int degree) {
   double count = 1;
-  for (int d = 1; d <= degree; ++d) count = count * static_cast<double>(causes + d) / d;
+  for (int d = 1; d <= degree; ++d) count = count * static_cast<double>(parameters + d) / d;
   return static_cast<Eigen::Index>(std::llround(std::min(count, 1e15)));
 }
 
 namespace {
 
-/// Exponents of all monomials of `causes` variables up to `degree`, one column each, the constant first.
-Eigen::MatrixXi exponents(Eigen::Index causes, int degree) {
-  std::vector<Eigen::VectorXi> all{Eigen::VectorXi::Zero(causes)};
+/// Exponents of all monomials of `parameters` variables up to `degree`, one column each, the constant first.
+Eigen::MatrixXi exponents(Eigen::Index parameters, int degree) {
+  std::vector<Eigen::VectorXi> all{Eigen::VectorXi::Zero(parameters)};
   std::size_t first = 0;
   for (int d = 1; d <= degree; ++d) {
     const std::size_t last = all.size();
     for (std::size_t i = first; i < last; ++i) {
       // Raise only variables from the last one in use on: each monomial comes up once.
-      Eigen::Index from = causes - 1;
+      Eigen::Index from = parameters - 1;
       while (from > 0 && all[i](from) == 0) --from;
-      for (Eigen::Index v = from; v < causes; ++v) {
+      for (Eigen::Index v = from; v < parameters; ++v) {
         all.push_back(all[i]);
         ++all.back()(v);
       }
     }
     first = last;
   }
-  Eigen::MatrixXi result(causes, static_cast<Eigen::Index>(all.size()));
+  Eigen::MatrixXi result(parameters, static_cast<Eigen::Index>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = all[i];
   return result;
 }
 
-/// The monomials at y, and on request their derivatives (monomials x causes).
+/// The monomials at y, and on request their derivatives (monomials x parameters).
 Eigen::VectorXd monomials(const Eigen::MatrixXi& exponent, const Eigen::VectorXd& y, Eigen::MatrixXd* slope) {
-  const Eigen::Index causes = y.size();
+  const Eigen::Index parameters = y.size();
   const int degree = exponent.maxCoeff();
-  Eigen::MatrixXd power = Eigen::MatrixXd::Ones(causes, degree + 1);
+  Eigen::MatrixXd power = Eigen::MatrixXd::Ones(parameters, degree + 1);
   for (int d = 1; d <= degree; ++d) power.col(d) = power.col(d - 1).cwiseProduct(y);
   Eigen::VectorXd value = Eigen::VectorXd::Ones(exponent.cols());
-  if (slope) *slope = Eigen::MatrixXd::Zero(exponent.cols(), causes);
+  if (slope) *slope = Eigen::MatrixXd::Zero(exponent.cols(), parameters);
   for (Eigen::Index m = 0; m < exponent.cols(); ++m) {
-    for (Eigen::Index v = 0; v < causes; ++v) value(m) *= power(v, exponent(v, m));
+    for (Eigen::Index v = 0; v < parameters; ++v) value(m) *= power(v, exponent(v, m));
     if (!slope) continue;
-    for (Eigen::Index v = 0; v < causes; ++v) {
+    for (Eigen::Index v = 0; v < parameters; ++v) {
       if (exponent(v, m) == 0) continue;
       double product = exponent(v, m) * power(v, exponent(v, m) - 1);
-      for (Eigen::Index w = 0; w < causes; ++w)
+      for (Eigen::Index w = 0; w < parameters; ++w)
         if (w != v) product *= power(w, exponent(w, m));
       (*slope)(m, v) = product;
     }
@@ -64,25 +64,25 @@ Eigen::VectorXd monomials(const Eigen::MatrixXi& exponent, const Eigen::VectorXd
 }
 
 /// The highest degree whose monomials are at most half as many as the samples of every class.
-int affordableDegree(int wanted, Eigen::Index causes, Eigen::Index fewestSamples) {
+int affordableDegree(int wanted, Eigen::Index parameters, Eigen::Index fewestSamples) {
   int degree = wanted;
-  while (degree > 0 && 2 * monomialCount(causes, degree) > fewestSamples) --degree;
+  while (degree > 0 && 2 * monomialCount(parameters, degree) > fewestSamples) --degree;
   return degree;
 }
 
-/// 1 / variance of a scaled cause that is uniform over [-1, 1].
+/// 1 / variance of a scaled parameter that is uniform over [-1, 1].
 constexpr double kPriorPrecision = 3;
 constexpr int kMostIterations = 30;
 constexpr double kEnough = 1e-10;
-constexpr double kRounding = 1e-12; ///< of the cost: less is no rise
+constexpr double kRounding = 1e-12; ///< of the cost: a smaller rise is rounding
 
 void requireSizes(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
-                  const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
+                  const Eigen::Ref<const Eigen::MatrixXd>& parameters, const Eigen::VectorXi& classes,
                   const ForwardModelOptions& options) {
   if (measurements.cols() == 0) throw NetworkError("samples: " + gotExpected("0", "1 or more"));
-  if (causes.cols() != measurements.cols() || classes.size() != measurements.cols())
+  if (parameters.cols() != measurements.cols() || classes.size() != measurements.cols())
     throw NetworkError("a forward model needs one set of parameters and one class per sample");
-  if (!measurements.allFinite() || !causes.allFinite())
+  if (!measurements.allFinite() || !parameters.allFinite())
     throw NetworkError("samples contain values that are not finite");
   if (classes.minCoeff() < 0)
     throw NetworkError("classes: " + gotExpected(std::to_string(classes.minCoeff()), "0 or above"));
@@ -103,38 +103,38 @@ std::vector<std::vector<Eigen::Index>> membersOf(const Eigen::VectorXi& classes)
 
 Eigen::VectorXd ForwardModel::measurementsOf(std::size_t c, const Eigen::Ref<const Eigen::VectorXd>& y,
                                              Eigen::MatrixXd* jacobian) const {
-  const Eigen::VectorXd scaled = (y - causeOffset).cwiseProduct(causeFactor);
+  const Eigen::VectorXd scaled = (y - parameterOffset).cwiseProduct(parameterFactor);
   Eigen::MatrixXd slope;
-  const Eigen::VectorXd value = monomials(exponents(causes(), degree), scaled, jacobian ? &slope : nullptr);
-  if (jacobian) *jacobian = coefficients[c] * slope * causeFactor.asDiagonal();
+  const Eigen::VectorXd value = monomials(exponents(parameters(), degree), scaled, jacobian ? &slope : nullptr);
+  if (jacobian) *jacobian = coefficients[c] * slope * parameterFactor.asDiagonal();
   return coefficients[c] * value;
 }
 
 ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measurements,
-                             const Eigen::Ref<const Eigen::MatrixXd>& causes, const Eigen::VectorXi& classes,
+                             const Eigen::Ref<const Eigen::MatrixXd>& parameters, const Eigen::VectorXi& classes,
                              const ForwardModelOptions& options, std::vector<std::string>* warnings) {
-  requireSizes(measurements, causes, classes, options);
+  requireSizes(measurements, parameters, classes, options);
   const std::vector<std::vector<Eigen::Index>> members = membersOf(classes);
   std::size_t fewest = members.front().size();
   for (const auto& list : members) fewest = std::min(fewest, list.size());
   ForwardModel model;
-  model.degree = affordableDegree(options.degree, causes.rows(), static_cast<Eigen::Index>(fewest));
+  model.degree = affordableDegree(options.degree, parameters.rows(), static_cast<Eigen::Index>(fewest));
   if (model.degree < options.degree && warnings)
     warnings->push_back("the polynomial that detects the loaded area has degree " + std::to_string(model.degree) +
                         " in the force instead of " + std::to_string(options.degree) + ": an area has only " +
                         std::to_string(fewest) + " samples");
-  const Eigen::VectorXd low = causes.rowwise().minCoeff(), high = causes.rowwise().maxCoeff();
-  model.causeOffset = (low + high) / 2;
-  model.causeFactor = (high - low).unaryExpr([](double range) { return range > 0 ? 2 / range : 0; });
+  const Eigen::VectorXd low = parameters.rowwise().minCoeff(), high = parameters.rowwise().maxCoeff();
+  model.parameterOffset = (low + high) / 2;
+  model.parameterFactor = (high - low).unaryExpr([](double range) { return range > 0 ? 2 / range : 0; });
 
-  const Eigen::MatrixXi exponent = exponents(causes.rows(), model.degree);
+  const Eigen::MatrixXi exponent = exponents(parameters.rows(), model.degree);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(measurements.rows());
   for (const auto& list : members) {
     Eigen::MatrixXd features(static_cast<Eigen::Index>(list.size()), exponent.cols());
     Eigen::MatrixXd values(features.rows(), measurements.rows());
     for (Eigen::Index k = 0; k < features.rows(); ++k) {
       const Eigen::Index i = list[static_cast<std::size_t>(k)];
-      const Eigen::VectorXd scaled = (causes.col(i) - model.causeOffset).cwiseProduct(model.causeFactor);
+      const Eigen::VectorXd scaled = (parameters.col(i) - model.parameterOffset).cwiseProduct(model.parameterFactor);
       features.row(k) = monomials(exponent, scaled, nullptr).transpose();
       values.row(k) = measurements.col(i).transpose();
     }
@@ -154,7 +154,7 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
   return model;
 }
 
-/// One class at its most likely causes.
+/// One class at its most likely parameters.
 struct LikelihoodInversion::Posterior {
   Eigen::VectorXd y; ///< scaled
   Eigen::MatrixXd covariance;
@@ -163,9 +163,9 @@ struct LikelihoodInversion::Posterior {
 };
 
 LikelihoodInversion::LikelihoodInversion(const ForwardModel& model)
-    : causeOffset_(model.causeOffset),
-      causeWidth_(model.causeFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; })),
-      measurements_(model.measurements()), exponent_(exponents(model.causes(), model.degree)) {
+    : parameterOffset_(model.parameterOffset),
+      parameterWidth_(model.parameterFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; })),
+      measurements_(model.measurements()), exponent_(exponents(model.parameters(), model.degree)) {
   const Eigen::VectorXd weight = model.deviation.cwiseInverse();
   for (const Eigen::MatrixXd& coefficients : model.coefficients) {
     Class c;
@@ -185,7 +185,7 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
   const Eigen::VectorXd projected = c.polynomial.transpose() * remainder;
   const double square = remainder.squaredNorm();
   Posterior result;
-  result.y = Eigen::VectorXd::Zero(causeOffset_.size());
+  result.y = Eigen::VectorXd::Zero(parameterOffset_.size());
   const Eigen::Index count = projected.size();
   Eigen::MatrixXd allSlopes, slope;
   Eigen::VectorXd gradient; // of the monomials: P'(r - P m)
@@ -223,7 +223,7 @@ LikelihoodInversion::Posterior LikelihoodInversion::posterior(const Class& c,
   }
   const double least = cost(result.y, true);
   const auto normal = semidefiniteFactor(precision());
-  if (!normal) { // readings that are no numbers: nor is what they say
+  if (!normal) { // readings that are not finite: nor is the estimate
     result.y.setConstant(NAN);
     result.covariance = Eigen::MatrixXd::Constant(result.y.size(), result.y.size(), NAN);
     return result;
@@ -243,14 +243,14 @@ LikelihoodEstimate LikelihoodInversion::estimate(const Eigen::Ref<const Eigen::V
   for (std::size_t c = 1; c < posteriors.size(); ++c)
     if (posteriors[c].logEvidence > posteriors[best].logEvidence) best = c;
   double total = 0;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(causeOffset_.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(parameterOffset_.size());
   for (const Posterior& p : posteriors) {
     const double share = std::exp(p.logEvidence - posteriors[best].logEvidence);
     total += share;
     mean += share * p.y;
   }
   mean /= total;
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(causeOffset_.size());
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(parameterOffset_.size());
   for (const Posterior& p : posteriors) {
     const double share = std::exp(p.logEvidence - posteriors[best].logEvidence) / total;
     variance += share * (p.covariance.diagonal() + (p.y - mean).cwiseAbs2());
@@ -258,8 +258,8 @@ LikelihoodEstimate LikelihoodInversion::estimate(const Eigen::Ref<const Eigen::V
   LikelihoodEstimate estimate;
   estimate.classIndex = static_cast<int>(best);
   estimate.confidence = 1 / total;
-  estimate.causes = causeOffset_ + mean.cwiseProduct(causeWidth_);
-  estimate.standardDeviation = variance.cwiseSqrt().cwiseProduct(causeWidth_);
+  estimate.parameters = parameterOffset_ + mean.cwiseProduct(parameterWidth_);
+  estimate.standardDeviation = variance.cwiseSqrt().cwiseProduct(parameterWidth_);
   estimate.chiSquare = posteriors[best].chiSquare / static_cast<double>(measurements_);
   return estimate;
 }
