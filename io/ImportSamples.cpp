@@ -165,7 +165,7 @@ Imported importSamples(const fs::path& table, const fs::path& mapFile, const Sen
   const Eigen::Index atOnce = samplesAtOnce(block);
   for (Eigen::Index count = atOnce; count == atOnce;) {
     resizeSamples(block, atOnce);
-    for (count = 0; count < atOnce && rows.read(block, count); ++count) stopIfAsked(stop);
+    for (count = 0; count < atOnce && rows.read(block, count); ++count) throwIfStopped(stop);
     resizeSamples(block, count);
     writer.append(block);
     readings.add(block.resistances_ohm);

@@ -26,15 +26,15 @@ double contactResistance_ohm(const FieldLaw& law) {
 Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model,
                                const Eigen::VectorXd& conductivities) {
   const double a = law.electrodeRadius_mm;
-  const bool uneven = conductivities.size() > 0;
+  const bool heterogeneous = conductivities.size() > 0;
   Eigen::MatrixXd p = green.value;
-  if (uneven)
+  if (heterogeneous)
     p.diagonal().array() += 1 / (4 * std::numbers::pi * a * conductivities.array());
   else
     p.diagonal().array() += 1 / (4 * std::numbers::pi * a);
   if (model == SphereModel::Dipoles)
     for (const Eigen::MatrixXd& slope : green.slope) {
-      if (uneven)
+      if (heterogeneous)
         p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * conductivities.asDiagonal() * slope;
       else
         p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * slope;

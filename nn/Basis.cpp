@@ -24,7 +24,7 @@ Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, con
   Eigen::MatrixXd result(a.cols(), b.cols());
   const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel needs it
   for (Eigen::Index first = 0; first < rows.rows(); first += kCachedRows) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     for (Eigen::Index j = 0; j < b.cols(); ++j)
       kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(kCachedRows, rows.rows() - first),
                                        rows.cols(), b.col(j).data(), &result(first, j));

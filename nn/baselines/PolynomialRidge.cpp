@@ -91,11 +91,11 @@ PolynomialFit trainPolynomial(const Eigen::Ref<const Eigen::MatrixXd>& samples,
     model.centers = thinned(clean);
     const double meanSquare = clean.colwise().squaredNorm().mean();
     model.size = meanSquare > 0 ? meanSquare : 1;
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     toWeights = directions(kernel(model.centers, model.centers, model.size, options.degree));
     features.resize(rows.cols(), toWeights.cols());
     for (Eigen::Index first = 0; first < rows.cols(); first += lapack::kRowsAtOnce) {
-      stopIfAsked(stop);
+      throwIfStopped(stop);
       const Eigen::Index count = std::min(lapack::kRowsAtOnce, rows.cols() - first);
       features.middleRows(first, count) = lapack::product(
           kernel(rows.middleCols(first, count), model.centers, model.size, options.degree), false, toWeights, false);

@@ -176,7 +176,7 @@ std::vector<Eigen::MatrixXd> ForwardProcess::covariances(const std::vector<Eigen
     }
     result.push_back(gaussians(places, placesThere, by.width * range_));
     result.back().array() *= lapack::product(terms, true, termsThere, false).array();
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
   }
   return result;
 }
@@ -198,12 +198,12 @@ std::optional<ForwardProcess::Fitted> ForwardProcess::fitted(const std::vector<E
       system += MirrorGroup::sign(part.parity, static_cast<int>(element)) * ofImages[element];
     if (part.parity == 0) system.array() += static_cast<double>(ofImages.size()) * kRestVariance;
     system.diagonal().array() += by.smoothing;
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     if (!lapack::choleskyInPlace(system)) return {};
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     lapack::invertLowerInPlace(system);
     system.triangularView<Eigen::StrictlyUpper>().setZero();
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     auto weights = result.weights.middleCols(part.from, part.count);
     weights = lapack::product(system, true,
                               lapack::product(system, false, targets.middleCols(part.from, part.count), false), false);
@@ -280,7 +280,7 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
       }
     }
   });
-  stopIfAsked(stop_);
+  throwIfStopped(stop_);
   table.interpolate(std::move(values));
   table.rest = Eigen::VectorXd::Zero(weights.cols());
   if (parts[0].parity == 0)

@@ -62,7 +62,7 @@ void fill(SplineTable& table, const OtherParameters& grid, const PriorComponents
   const Eigen::Index count = grid.points.cols();
   Eigen::MatrixXd values(table.outputs(), table.terms() * table.nodes[0] * table.nodes[1]);
   for (int y = 0; y < table.nodes[1]; ++y) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     Eigen::MatrixXd at = grid.points.replicate(1, table.nodes[0]);
     for (int x = 0; x < table.nodes[0]; ++x)
       for (std::size_t axis = 0; axis < 2; ++axis)

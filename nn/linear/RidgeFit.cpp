@@ -42,7 +42,7 @@ RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Ind
   const Eigen::MatrixXd targets = y.transpose();
 
   const auto errorsAt = [&](double value) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr(
         [&](double s) { return s > rcond * largest ? s * s / (s * s + value * largest * largest) : 0.0; });
     const Eigen::MatrixXd remainder = centred - lapack::product(svd.u, false, filter.asDiagonal() * rotated, false);

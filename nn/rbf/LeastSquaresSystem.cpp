@@ -43,7 +43,7 @@ double LeastSquaresSystem::tailFactor() const {
 }
 
 Eigen::MatrixXd LeastSquaresSystem::system(double spread, const std::stop_token& stop) const {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   Eigen::MatrixXd phi = distances_;
   basisInPlace(phi, gaussianRate(spread, options_.convention));
   if (!tailIsUnknown_ || tail_ == Tail::None) return space_.project(phi);
@@ -93,7 +93,7 @@ std::vector<LeaveOneOutResult> LeastSquaresSystem::leaveOneOut(double spread, co
   const Eigen::MatrixXd whole = space_.embed(right_);
   std::vector<LeaveOneOutResult> results;
   for (const double ridge : ridges) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr([&](double s) {
       const double scaledRidge = ridge * static_cast<double>(copies_);
       return s > options_.rcond * svd.values(0) ? s * s / (s * s + scaledRidge) : 0.0;

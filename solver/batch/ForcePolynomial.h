@@ -9,7 +9,8 @@
 
 namespace palp {
 
-/// Monomials of a force, degrees 1 to `degree` (no force, no answer), each component over the largest of its range.
+/// Monomials of a force of degrees 1 to `degree` (no constant: no force, no answer), each component scaled by the
+/// largest of its range.
 class ForcePolynomial {
 public:
   ForcePolynomial(const ForceRange& range, int degree);
@@ -27,7 +28,7 @@ private:
 /// Whether a force lies in the range.
 bool inRange(const ForceRange& range, const Eigen::Vector3d& force_N);
 
-/// Whether the load is one force on one area, in the range, and nothing else: what a polynomial of an area answers.
+/// Whether the load is one force on one area, in the range, and nothing else, so that a polynomial of an area applies.
 bool onOneArea(const LoadCase& load, const ForceRange& range);
 
 /// Forces that cover the range: its 8 corners, then Halton's sequence.

@@ -12,7 +12,7 @@ namespace palp {
 
 namespace {
 
-constexpr int placesOnTheWay = 16; // of an indenter that goes sideways
+constexpr int placesOnTheWay = 16; // of a tangential motion
 
 double areaOfFace(const Mesh& mesh, Eigen::Index f, int a, int b, int c) {
   const auto at = [&](int n) { return Eigen::Vector3d(mesh.nodes_mm.col(mesh.topFaces(n, f))); };
@@ -66,9 +66,9 @@ std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& 
       const double depth = depthOfSearch(indenter, contactEstimate(indenter, design).depth_mm, margin);
       const int places = to == from ? 0 : placesOnTheWay;
       for (int k = 0; k <= places; ++k) {
-        const Eigen::Vector2d sideways = from + (to - from) * (places > 0 ? double(k) / places : 0);
+        const Eigen::Vector2d shift_mm = from + (to - from) * (places > 0 ? double(k) / places : 0);
         tips.push_back({&indenter, static_cast<int>(i),
-                        tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth)});
+                        tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(shift_mm.x(), shift_mm.y(), -depth)});
       }
       from = to;
     }

@@ -6,10 +6,10 @@ namespace palp {
 
 namespace {
 
-constexpr double longestMove = 0.5; // of an indenter's expected depth, in one iteration
-// Of a load with friction. While it presses, rubber that comes to touch in a step sticks where it was before that step:
-// the error falls as the steps. Going sideways it slides one way, and steps hardly matter
-// (resources/docs/numerics/contact.md).
+constexpr double longestMove = 0.5; // of an indenter in one iteration, relative to its expected depth
+// Of a load with friction. During normal loading, rubber that comes into contact in an increment sticks where it was
+// before that increment: the error is proportional to the increment. Under tangential loading it slides in one
+// direction, and the increment hardly matters (resources/docs/numerics/contact.md).
 constexpr double frictionSteps = 4, stepsOfTwoParts = frictionSteps / pressShare;
 
 } // namespace
@@ -51,15 +51,16 @@ bool slidAway(const std::vector<Indenter>& indenters, std::span<const ContactEst
   for (std::size_t k = 0; k < indenters.size(); ++k) {
     if (!indenters[k].press() || indenters[k].friction == 0) continue;
     const auto column = static_cast<Eigen::Index>(k);
-    const double way = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
-    if (way > expected[k].half_mm.minCoeff()) return true;
+    const double slip_mm = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
+    if (slip_mm > expected[k].half_mm.minCoeff()) return true;
   }
   return false;
 }
 
 ContactState untouched(std::size_t points, std::size_t indenters) {
   return {Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(points)),
-          Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters)), std::vector<Grip>(points, Grip::Free)};
+          Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters)),
+          std::vector<ContactStatus>(points, ContactStatus::Open)};
 }
 
 } // namespace palp

@@ -130,18 +130,19 @@ AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const Field
       there += back * (electrode.point_mm + from - nodes_mm(Eigen::all, tets.elements.col(place.element)) * shapesAt());
       place = find(there, place.element);
       element = place.element;
-      values(i) = conductivity.half(shapesAt().dot(conductivity.pressures_MPa(tets.elements.col(element))));
+      values(i) =
+          conductivity.halfLogConductivity(shapesAt().dot(conductivity.pressures_MPa(tets.elements.col(element))));
     }
     return values;
   };
-  const double a = electrode.radius_mm, span = std::log(electrode.reach_mm / a);
+  const double a = electrode.radius_mm, span = std::log(electrode.cutoff_mm / a);
   const Eigen::Matrix<double, SphereRule::points, 1> surface = onSphere(a).cwiseProduct(rule.weights);
   result.value = surface.sum();
   result.slope = 3 / a * (rule.directions * surface);
   if (!(span > 0)) return result;
   for (const auto& [share, weight] : kRadii) { // over ln r
     const double r = a * std::exp(span * share), more = onSphere(r).dot(rule.weights) - result.value;
-    const double square = std::pow(r / electrode.reach_mm, 2), fall = 4 * square * (1 - square); // - r chi'
+    const double square = std::pow(r / electrode.cutoff_mm, 2), fall = 4 * square * (1 - square); // - r chi'
     result.simple -= weight * span * more * fall;
     result.square -= weight * span * more * (AtElectrode::cutOff(square) + fall) / (2 * std::numbers::pi * r);
   }

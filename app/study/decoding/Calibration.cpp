@@ -61,7 +61,7 @@ Correction fit(const Scaled& samples, Eigen::Index left) {
 Eigen::MatrixXd unseenErrors(const Scaled& samples, const std::stop_token& stop) {
   Eigen::MatrixXd errors(samples.said.rows(), samples.said.cols());
   for (Eigen::Index i = 0; i < errors.cols(); ++i) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     errors.col(i) = fit(samples, i).transpose() * regressors(samples.said.col(i)) - samples.truth.col(i);
   }
   return errors;

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, with PALP_KERNEL (a name) and PALP_PACK (doubles at once) given.
+// Compiled once for each instruction set, with PALP_KERNEL (a name) and PALP_PACK (doubles per register) given.
 #include "solver/element/kernels/Condensation.h"
 #include "solver/element/kernels/HexKernel.h"
 #include "solver/element/kernels/LaneMix.h"
@@ -126,7 +126,7 @@ void stepsOfFollowing(const double* directions, int count, const LaneMix& mix, f
   followMixed(directions, count, mix, past, values);
 }
 
-void startsOfLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts& starts) {
+void startsOfLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const InitialGuess& guess) {
   beginLoads(values, before, rows, stride, starts);
 }
 

@@ -111,11 +111,12 @@ TEST_P(FieldFunctionsOf, MakeUpWhatAQuadraticFunctionLeavesOfTheInverseRoot) {
     const Eigen::Matrix<double, 10, 1> pressures = k.pressures_MPa(pressed.mesh.tets().elements.col(e));
     const FieldFunctions::Point there = pressed.functions.at(e, place);
     double made = -there.values.tail<4>().sum();
-    for (int n = 0; n < 10; ++n) made += there.values(n) * std::exp(-k.half(pressures(n)));
+    for (int n = 0; n < 10; ++n) made += there.values(n) * std::exp(-k.halfLogConductivity(pressures(n)));
     int rough = 0;
     for (int corner = 0; corner < 4; ++corner)
       rough += pressed.functions.isRough(pressed.mesh.tets().elements(corner, e)) ? 1 : 0;
-    EXPECT_NEAR(made, std::exp(-k.half(there.values.head<10>().dot(pressures))), rough == 4 ? 1e-14 : 2e-3)
+    EXPECT_NEAR(made, std::exp(-k.halfLogConductivity(there.values.head<10>().dot(pressures))),
+                rough == 4 ? 1e-14 : 2e-3)
         << "element " << e;
   }
 }

@@ -14,17 +14,17 @@ namespace palp {
 /// solves div(k grad .) but for the Laplacian of m (J. Liouville's substitution). Weakly:
 ///   integral k grad(s_q / (m m_q)) . grad v = v(x_q) + (oint m s_q,n v - integral grad m . grad(s_q v)) / m_q
 /// Here are the integrals over the volume.
-class UnevenConductivity {
+class HeterogeneousConductivity {
 public:
-  UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
-                     int threads);
+  HeterogeneousConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
+                            int threads);
 
   /// `right` (functions x sources) += integral grad m . grad(s_q N_a);
   /// `products` += integral grad l . grad(s_p s_q) - |grad l|^2 s_p s_q, for p <= q.
-  /// Each electrode is the first of its sources; within `reaches_mm` its own poles are as SphericalMeans has them. The
+  /// Each electrode is the first of its sources; within `cutoffs_mm` its own poles are as SphericalMeans has them. The
   /// same bytes at any number of threads.
   void addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm, const std::vector<AtElectrode>& electrodes,
-                    const std::vector<double>& reaches_mm, int threads, const std::stop_token& stop, SourceRows& right,
+                    const std::vector<double>& cutoffs_mm, int threads, const std::stop_token& stop, SourceRows& right,
                     Eigen::MatrixXd& products) const;
 
 private:
@@ -34,7 +34,7 @@ private:
   struct Poles {
     double simple = 0, square = 0;
   };
-  [[nodiscard]] Poles poles(const Eigen::Vector3d& centre_mm, double reach_mm) const;
+  [[nodiscard]] Poles poles(const Eigen::Vector3d& centre_mm, double cutoff_mm) const;
 
   const FieldMesh* mesh_;
   const FieldFunctions* functions_;

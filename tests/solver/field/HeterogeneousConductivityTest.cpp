@@ -1,4 +1,4 @@
-#include "solver/field/UnevenConductivity.h"
+#include "solver/field/HeterogeneousConductivity.h"
 
 #include "model/FieldAtRest.h"
 #include "solver/SensorMesh.h"
@@ -20,9 +20,10 @@ constexpr std::array kEachReadout{Readout::Floating, Readout::VirtualGround, Rea
                                   Readout::OthersAtHalf};
 
 /// A small random block at rest whose conductivity is ours to choose.
-struct UnevenBlock {
-  explicit UnevenBlock(unsigned seed, double meshSize = 1) : UnevenBlock(randomLayout(seed, 0.8), meshSize) {}
-  UnevenBlock(SensorDesign of, double meshSize) : design(std::move(of)) {
+struct HeterogeneousBlock {
+  explicit HeterogeneousBlock(unsigned seed, double meshSize = 1)
+      : HeterogeneousBlock(randomLayout(seed, 0.8), meshSize) {}
+  HeterogeneousBlock(SensorDesign of, double meshSize) : design(std::move(of)) {
     mesh = sensorMesh(design, {.meshSize_mm = meshSize * standardMeshSize_mm(design), .mapped = {}});
     electrodes = electrodes_mm(design);
     green.emplace(mesh, design.block_mm, electrodes);
@@ -40,7 +41,7 @@ struct UnevenBlock {
   }
   [[nodiscard]] Eigen::MatrixXd potentials(const FieldState& state, int threads = 2) const {
     const Eigen::VectorXd conductivities =
-        state.conductivity.uneven() ? green->conductivities(state) : Eigen::VectorXd();
+        state.conductivity.heterogeneous() ? green->conductivities(state) : Eigen::VectorXd();
     return potentials_ohm(*green->at(state, threads, {}), law, SphereModel::Dipoles, conductivities);
   }
   [[nodiscard]] Eigen::MatrixXd resistances(const FieldState& state, Readout readout) const {
@@ -61,15 +62,15 @@ Eigen::MatrixXd seen(const Eigen::MatrixXd& p) {
   return rows;
 }
 
-class UnevenConductivityOf : public testing::TestWithParam<unsigned> {};
+class HeterogeneousConductivityOf : public testing::TestWithParam<unsigned> {};
 
-TEST_P(UnevenConductivityOf, AnEvenOneScalesExactly) {
-  const UnevenBlock unevenBlock(GetParam());
-  const FieldState plain{unevenBlock.green->mesh().tets().nodes_mm, unevenBlock.electrodes, {}};
-  const FieldState better = unevenBlock.with([](const Eigen::Vector3d&) { return 1.7; });
+TEST_P(HeterogeneousConductivityOf, AnEvenOneScalesExactly) {
+  const HeterogeneousBlock block(GetParam());
+  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
+  const FieldState better = block.with([](const Eigen::Vector3d&) { return 1.7; });
   for (const Readout readout : kEachReadout)
-    EXPECT_LT((unevenBlock.resistances(better, readout) * 1.7 - unevenBlock.resistances(plain, readout)).norm(),
-              1e-9 * unevenBlock.resistances(plain, readout).norm())
+    EXPECT_LT((block.resistances(better, readout) * 1.7 - block.resistances(plain, readout)).norm(),
+              1e-9 * block.resistances(plain, readout).norm())
         << kReadouts.name(readout);
 }
 
@@ -100,17 +101,16 @@ Eigen::MatrixXd changeBySlope(const Eigen::Vector3d& block_mm, const Eigen::Matr
   return change;
 }
 
-TEST_P(UnevenConductivityOf, AWeakSlopeIsFirstOrderTheory) {
-  const UnevenBlock unevenBlock(GetParam());
+TEST_P(HeterogeneousConductivityOf, AWeakSlopeIsFirstOrderTheory) {
+  const HeterogeneousBlock block(GetParam());
   constexpr double small = 1e-3;
   const auto along = [&](double e) {
-    const FieldState state = unevenBlock.with([&](const Eigen::Vector3d& x) { return 2 * (1 + e * x.z()); });
-    return Eigen::MatrixXd(2 * potentials_ohm(*unevenBlock.green->at(state, 2, {}), unevenBlock.law,
-                                              SphereModel::Monopoles, unevenBlock.green->conductivities(state)));
+    const FieldState state = block.with([&](const Eigen::Vector3d& x) { return 2 * (1 + e * x.z()); });
+    return Eigen::MatrixXd(2 * potentials_ohm(*block.green->at(state, 2, {}), block.law, SphereModel::Monopoles,
+                                              block.green->conductivities(state)));
   };
   const Eigen::MatrixXd found = seen((along(small) - along(-small)) / (2 * small));
-  const Eigen::MatrixXd exact =
-      seen(changeBySlope(unevenBlock.design.block_mm, unevenBlock.electrodes, unevenBlock.law));
+  const Eigen::MatrixXd exact = seen(changeBySlope(block.design.block_mm, block.electrodes, block.law));
   const Eigen::MatrixXd error = found - exact;
   EXPECT_LT(error.norm(), 1e-3 * exact.norm());
   Eigen::MatrixXd between = exact, errorBetween = error; // what is not at the electrodes themselves
@@ -119,8 +119,8 @@ TEST_P(UnevenConductivityOf, AWeakSlopeIsFirstOrderTheory) {
   EXPECT_LT(errorBetween.norm(), 1e-2 * between.norm());
 }
 
-TEST_P(UnevenConductivityOf, AStrongOneIsThatOfAFinerMesh) {
-  const UnevenBlock coarse(GetParam()), fine(GetParam(), 0.6);
+TEST_P(HeterogeneousConductivityOf, AStrongOneIsThatOfAFinerMesh) {
+  const HeterogeneousBlock coarse(GetParam()), fine(GetParam(), 0.6);
   const auto bump = [](const Eigen::Vector3d& x) { // up to 3 times, as wide as the block is high
     return std::pow(3., std::exp(-(x - Eigen::Vector3d(2, 2, 2)).squaredNorm() / 4));
   };
@@ -134,41 +134,39 @@ TEST_P(UnevenConductivityOf, AStrongOneIsThatOfAFinerMesh) {
   }
 }
 
-TEST_P(UnevenConductivityOf, BetterRubberAnywhereNeverRaisesTheFloatingResistance) {
-  const UnevenBlock unevenBlock(GetParam());
-  const FieldState plain{unevenBlock.green->mesh().tets().nodes_mm, unevenBlock.electrodes, {}};
+TEST_P(HeterogeneousConductivityOf, BetterRubberAnywhereNeverRaisesTheFloatingResistance) {
+  const HeterogeneousBlock block(GetParam());
+  const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
   const FieldState better =
-      unevenBlock.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., std::sin(x.x() + x.y())); });
-  EXPECT_LT((unevenBlock.resistances(better, Readout::Floating) - unevenBlock.resistances(plain, Readout::Floating))
-                .maxCoeff(),
-            0);
+      block.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., std::sin(x.x() + x.y())); });
+  EXPECT_LT((block.resistances(better, Readout::Floating) - block.resistances(plain, Readout::Floating)).maxCoeff(), 0);
 }
 
-TEST_P(UnevenConductivityOf, IsTheSameOnAnyNumberOfThreads) {
-  const UnevenBlock unevenBlock(GetParam());
-  const FieldState state = unevenBlock.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., x.z() - 1); });
-  EXPECT_EQ(unevenBlock.potentials(state, 1), unevenBlock.potentials(state, 3));
+TEST_P(HeterogeneousConductivityOf, IsTheSameOnAnyNumberOfThreads) {
+  const HeterogeneousBlock block(GetParam());
+  const FieldState state = block.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., x.z() - 1); });
+  EXPECT_EQ(block.potentials(state, 1), block.potentials(state, 3));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, UnevenConductivityOf, testing::Values(1U, 7U, 23U));
+INSTANTIATE_TEST_SUITE_P(Seeds, HeterogeneousConductivityOf, testing::Values(1U, 7U, 23U));
 
 /// d ln R of each read-out by this conductivity.
-std::vector<Eigen::MatrixXd> changesBy(const UnevenBlock& block,
+std::vector<Eigen::MatrixXd> changesBy(const HeterogeneousBlock& block,
                                        const std::function<double(const Eigen::Vector3d&)>& conductivity) {
   const FieldState plain{block.green->mesh().tets().nodes_mm, block.electrodes, {}};
   const WireCounts counts = wireCounts(block.design);
   const TerminalNetwork rest(block.potentials(plain), counts, 0),
-      uneven(block.potentials(block.with(conductivity)), counts, 0);
+      heterogeneous(block.potentials(block.with(conductivity)), counts, 0);
   std::vector<Eigen::MatrixXd> changes;
   for (const Readout readout : kEachReadout)
-    changes.push_back(NetworkReading(uneven, readout).resistances_ohm().array().log() -
+    changes.push_back(NetworkReading(heterogeneous, readout).resistances_ohm().array().log() -
                       NetworkReading(rest, readout).resistances_ohm().array().log());
   return changes;
 }
 
 /// Between its parts too, of which the later ones need what the earlier ones leave.
-TEST(UnevenConductivity, StopsAtAnyTime) {
-  const UnevenBlock block(1);
+TEST(HeterogeneousConductivity, StopsAtAnyTime) {
+  const HeterogeneousBlock block(1);
   const FieldState state = block.with([](const Eigen::Vector3d& x) { return 1 + std::max(0., x.z() - 1); });
   const auto begin = std::chrono::steady_clock::now();
   const Eigen::MatrixXd whole = block.potentials(state, 1);
@@ -189,25 +187,25 @@ TEST(UnevenConductivity, StopsAtAnyTime) {
 }
 
 /// Where the pressure changes its sign within elements. Cut off at the nodes instead it is 2 to 3 times as far.
-TEST(UnevenConductivity, AKinkBetweenNodesIsThatOfAFinerMesh) {
+TEST(HeterogeneousConductivity, AKinkBetweenNodesIsThatOfAFinerMesh) {
   const auto wave = [](const Eigen::Vector3d& x) { return 1 + 0.3 * std::sin(x.x() + 0.7 * x.y() - x.z()); };
-  const auto coarse = changesBy(UnevenBlock(1), wave), fine = changesBy(UnevenBlock(1, 0.6), wave);
+  const auto coarse = changesBy(HeterogeneousBlock(1), wave), fine = changesBy(HeterogeneousBlock(1, 0.6), wave);
   for (std::size_t i = 0; i < kEachReadout.size(); ++i)
     EXPECT_LT((coarse[i] - fine[i]).norm(), 0.05 * fine[i].norm()) << kReadouts.name(kEachReadout[i]);
 }
 
 /// A steep law: ten times as well a tenth of a wave's length beside the kink. Quadratic functions alone leave PERCENT %
 /// of d ln R.
-TEST(UnevenConductivity, ASteepLawIsThatOfAFinerMesh) {
+TEST(HeterogeneousConductivity, ASteepLawIsThatOfAFinerMesh) {
   const auto wave = [](const Eigen::Vector3d& x) { return 1 + 15 * std::sin(x.x() + 0.7 * x.y() - x.z()); };
-  const auto coarse = changesBy(UnevenBlock(1), wave), fine = changesBy(UnevenBlock(1, 0.6), wave);
+  const auto coarse = changesBy(HeterogeneousBlock(1), wave), fine = changesBy(HeterogeneousBlock(1, 0.6), wave);
   for (std::size_t i = 0; i < kEachReadout.size(); ++i)
     EXPECT_LT((coarse[i] - fine[i]).norm(), 0.03 * fine[i].norm()) << kReadouts.name(kEachReadout[i]);
 }
 
 /// A row-wire that others screen from all lower electrodes: its current is a small difference, and a rule that steps
 /// over the kink leaves 2.3 % of its d ln R.
-TEST(UnevenConductivity, AKinkAtAScreenedRowIsThatOfAFinerMesh) {
+TEST(HeterogeneousConductivity, AKinkAtAScreenedRowIsThatOfAFinerMesh) {
   SensorDesign design;
   design.block_mm = {6, 16, 4};
   design.upper = {{2, 5, 8, 11, 14}, {{1.5, 3, 4.5}}, {{2.4}}};

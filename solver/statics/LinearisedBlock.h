@@ -11,16 +11,17 @@
 
 namespace palp {
 
-/// The tangent at rest: every solve begins with it, all loads of a batch share it.
+/// The tangent at rest: the first tangent of every solve, and the only one of a batch.
 struct InitialTangent {
-  ElementTangents tangents; ///< without the stiffness, which is summed up
+  ElementTangents tangents; ///< without the stiffness, which is assembled
   ElementForces forces;     ///< zero
   SparseCholesky factor;
 };
 
-/// What a problem keeps, shared read-only with BatchSolver. What is expensive is made at its first use and kept.
-struct HyperelasticProblem::Parts {
-  Parts(SensorDesign d, Mesh m);
+/// The discretised block with its tangent at rest: mesh, assembler, probes and factor, shared read-only by copies of a
+/// HyperelasticProblem and by BatchSolver. Expensive parts are made at their first use and kept.
+struct LinearisedBlock {
+  LinearisedBlock(SensorDesign d, Mesh m);
 
   SensorDesign design;
   Mesh mesh;
@@ -28,12 +29,12 @@ struct HyperelasticProblem::Parts {
   Assembler assembler;
 
   [[nodiscard]] std::shared_ptr<const CholeskyPlan> plan() const;
-  /// Empty: stopped.
+  /// Null if cancelled.
   [[nodiscard]] std::shared_ptr<const InitialTangent> initialTangent(int threads, const std::stop_token& stop) const;
-  /// The same by another plan, and not kept.
+  /// The same by another plan, not kept.
   [[nodiscard]] std::shared_ptr<InitialTangent> makeTangent(std::shared_ptr<const CholeskyPlan> plan, int threads,
                                                             const std::stop_token& stop,
-                                                            Products products = Products::Double) const;
+                                                            UpdatePrecision products = UpdatePrecision::Double) const;
   void keepInitialTangent(std::shared_ptr<const InitialTangent> tangent) const;
   /// Does not wait for a thread that makes it.
   void releaseInitialTangent() const;
@@ -42,18 +43,18 @@ struct HyperelasticProblem::Parts {
 
 private:
   struct Making { ///< while it lives, one thread makes the tangent and others wait
-    const Parts& parts;
+    const LinearisedBlock& block;
     ~Making();
   };
 
-  // A lock for each thing that is made at first use: a window that asks for a probe must not wait for a factorisation.
+  // A lock for each part that is made at first use: a window that needs a probe must not wait for a factorisation.
   mutable std::once_flag planOnce_, upperOnce_, lowerOnce_;
   mutable std::shared_ptr<const CholeskyPlan> plan_;
   mutable std::optional<PointProbe> upperProbe_, lowerProbe_;
-  mutable std::mutex tangentGuard_; ///< of the two below; held for no longer than a pointer takes
+  mutable std::mutex tangentGuard_; ///< of the two below; locked for a pointer's assignment only
   mutable bool making_ = false;
   mutable std::shared_ptr<const InitialTangent> tangent_;
-  mutable std::condition_variable_any made_; ///< or given up
+  mutable std::condition_variable_any made_; ///< or abandoned
 };
 
 /// The elements' own unknowns as in LoadIncrement (unknowns x elements).

@@ -1,4 +1,4 @@
-#include "solver/field/UnevenConductivity.h"
+#include "solver/field/HeterogeneousConductivity.h"
 
 #include "model/base/Parallel.h"
 #include "solver/element/ElementGeometry.h"
@@ -15,8 +15,8 @@
 
 namespace palp {
 
-UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
-                                       const FieldFunctions& functions, int threads)
+HeterogeneousConductivity::HeterogeneousConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
+                                                     const FieldFunctions& functions, int threads)
     : mesh_(&mesh), functions_(&functions) {
   const Conductivity& conductivity = functions.conductivity();
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
@@ -25,11 +25,11 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   };
   for (int e = 0; e < mesh.elements(); ++e)
     if ((pressuresOf(e).array() > 0).any()) elements_.push_back(e);
-  // The slope of l jumps where the pressure changes its sign. What a rule that steps over the jump leaves is the same
-  // share of all sources' products, those of electrodes that others screen from one another too.
+  // The slope of l jumps where the pressure changes its sign. The error of a rule that integrates across the jump is
+  // the same share of all sources' products, also between electrodes that others screen from one another.
   std::vector<std::vector<TetPoint>> points(elements_.size());
   inParallel(elements_.size(), threads,
-             [&](std::size_t i) { points[i] = tetPointsBesideKink(pressuresOf(elements_[i])); });
+             [&](std::size_t i) { points[i] = tetPointsAroundKink(pressuresOf(elements_[i])); });
   first_.push_back(0);
   for (const auto& own : points) first_.push_back(first_.back() + static_cast<Eigen::Index>(own.size()));
   at_.resize(first_.back(), 6);
@@ -49,8 +49,9 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
       const double volume = points[i][q].weight * map.determinant() / 6;
       at_.row(point).head<3>() = (places * shapes).transpose();
       const Eigen::Matrix<double, FieldFunctions::most, 3> gradients = there.gradients * map.inverse();
-      const double p = shapes.dot(pressures), m = std::exp(conductivity.half(p));
-      const Eigen::Vector3d slope = conductivity.halfByPressure(p) * (gradients.topRows<10>().transpose() * pressures);
+      const double p = shapes.dot(pressures), m = std::exp(conductivity.halfLogConductivity(p));
+      const Eigen::Vector3d slope =
+          conductivity.halfLogConductivitySlope(p) * (gradients.topRows<10>().transpose() * pressures);
       at_.row(point).tail<3>() = volume * slope.transpose();
       squareSlopes_(point) = static_cast<float>(volume * slope.squaredNorm() / 2);
       shapes_.col(point) = (m * there.values).cast<float>();
@@ -61,11 +62,11 @@ UnevenConductivity::UnevenConductivity(const FieldMesh& mesh, const Eigen::Matri
   });
 }
 
-/// Of elements first .. first + count - 1: what stands in `right` for each of their functions, by rows of 14, and what
-/// `products` gain. Both are sums of sources as they stand, without poles taken off: single precision leaves 1e-7 of
-/// them.
-void UnevenConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                     float* onElements, Eigen::MatrixXd& products) const {
+/// For elements first .. first + count - 1: the contributions to `right` for each of their functions, by rows of 14,
+/// and those added to `products`. Both are sums over the sources without subtracted poles: single precision leaves 1e-7
+/// of them.
+void HeterogeneousConductivity::addElements(int first, int count, const std::vector<Eigen::Matrix3Xd>& sources_mm,
+                                            float* onElements, Eigen::MatrixXd& products) const {
   const auto sources = static_cast<int>(sources_mm.size());
   const Eigen::Index from = first_[std::size_t(first)];
   const auto points = static_cast<int>(first_[std::size_t(first + count)] - from);
@@ -103,17 +104,18 @@ void UnevenConductivity::addElements(int first, int count, const std::vector<Eig
 
 /// What the quadrature makes of the integrals of grad l . grad(s) chi and grad l . grad(s^2) chi as AtElectrode has
 /// them: poles of second and third order, too steep for it.
-UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centre_mm, double reach_mm) const {
+HeterogeneousConductivity::Poles HeterogeneousConductivity::poles(const Eigen::Vector3d& centre_mm,
+                                                                  double cutoff_mm) const {
   Poles sums;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    if ((at_.row(first_[e]).head<3>().transpose() - centre_mm).norm() >= reach_mm + spans_mm_[e]) continue;
+    if ((at_.row(first_[e]).head<3>().transpose() - centre_mm).norm() >= cutoff_mm + spans_mm_[e]) continue;
     for (Eigen::Index i = first_[e]; i < first_[e + 1]; ++i) {
       const Eigen::Vector3d d = at_.row(i).head<3>().transpose() - centre_mm;
       const double square = d.squaredNorm();
-      if (square >= reach_mm * reach_mm) continue;
+      if (square >= cutoff_mm * cutoff_mm) continue;
       const double s = 1 / (kFourPi * std::sqrt(square));
       const double simple =
-          -AtElectrode::cutOff(square / (reach_mm * reach_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
+          -AtElectrode::cutOff(square / (cutoff_mm * cutoff_mm)) * s * at_.row(i).tail<3>().dot(d) / square;
       sums.simple += simple;
       sums.square += 2 * s * simple;
     }
@@ -121,18 +123,19 @@ UnevenConductivity::Poles UnevenConductivity::poles(const Eigen::Vector3d& centr
   return sums;
 }
 
-void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm,
-                                      const std::vector<AtElectrode>& electrodes, const std::vector<double>& reaches_mm,
-                                      int threads, const std::stop_token& stop, SourceRows& right,
-                                      Eigen::MatrixXd& products) const {
+void HeterogeneousConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sources_mm,
+                                             const std::vector<AtElectrode>& electrodes,
+                                             const std::vector<double>& cutoffs_mm, int threads,
+                                             const std::stop_token& stop, SourceRows& right,
+                                             Eigen::MatrixXd& products) const {
   constexpr int parts = 8, elementsAPiece = 16, elementsAWave = parts * 4 * elementsAPiece;
-  const auto count = static_cast<int>(sources_mm.size()), uneven = static_cast<int>(elements_.size());
+  const auto count = static_cast<int>(sources_mm.size()), heterogeneous = static_cast<int>(elements_.size());
   std::vector<Eigen::MatrixXd> of(parts, Eigen::MatrixXd::Zero(count, count));
   constexpr int most = FieldFunctions::most;
   UnsetArray<float> onElements(std::size_t(most * elementsAWave) * std::size_t(count)); // by rows of `count`
   const auto rowsOf = [&](int element) { return onElements.data() + std::size_t(most * element) * std::size_t(count); };
-  for (int wave = 0; wave < uneven && !stop.stop_requested(); wave += elementsAWave) {
-    const int some = std::min(elementsAWave, uneven - wave);
+  for (int wave = 0; wave < heterogeneous && !stop.stop_requested(); wave += elementsAWave) {
+    const int some = std::min(elementsAWave, heterogeneous - wave);
     forChunks(parts, 1, threads, [&](int part, int) {
       const int last = (part + 1) * some / parts;
       for (int first = part * some / parts; first < last && !stop.stop_requested(); first += elementsAPiece) {
@@ -141,7 +144,7 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
       }
     });
     if (stop.stop_requested()) return;
-    forChunks(count, batchLanes, threads, [&](int begin, int end) {
+    forChunks(count, batchColumns, threads, [&](int begin, int end) {
       for (int i = 0; i < some; ++i) {
         const int element = elements_[std::size_t(wave + i)];
         for (int n = 0; n < functions_->count(element); ++n)
@@ -151,12 +154,12 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
     });
   }
   for (const Eigen::MatrixXd& part : of) products += part;
-  // The electrodes' poles, times what stands beside them there, by spheres instead of the quadrature.
+  // The electrodes' poles, times the other factors there, by spheres instead of the quadrature.
   std::vector<Poles> poles(sources_mm.size());
-  Eigen::MatrixXd beside(count, count);
+  Eigen::MatrixXd others(count, count);
   inParallel(poles.size(), threads, [&](std::size_t p) {
     if (stop.stop_requested()) return;
-    poles[p] = this->poles(sources_mm[p].col(0), reaches_mm[p]);
+    poles[p] = this->poles(sources_mm[p].col(0), cutoffs_mm[p]);
     poles[p].simple -= electrodes[p].simple;
     poles[p].square -= electrodes[p].square;
   });
@@ -165,15 +168,14 @@ void UnevenConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>& sourc
       const auto own = static_cast<std::size_t>(p);
       const Eigen::Vector3d place = sources_mm[own].col(0);
       for (int q = 0; q < count; ++q) {
-        const Eigen::Matrix3Xd& others = sources_mm[static_cast<std::size_t>(q)];
+        const Eigen::Matrix3Xd& images = sources_mm[static_cast<std::size_t>(q)];
         double there = 0;
-        for (Eigen::Index m = p == q ? 1 : 0; m < others.cols(); ++m)
-          there += 1 / (kFourPi * (others.col(m) - place).norm());
-        beside(q, p) = there * poles[own].simple;
+        for (Eigen::Index m = p == q ? 1 : 0; m < images.cols(); ++m) there += 1 / (kFourPi * (images.col(m) - place).norm());
+        others(q, p) = there * poles[own].simple;
       }
     }
   });
-  products -= beside + beside.transpose();
+  products -= others + others.transpose();
   for (int p = 0; p < count; ++p) {
     const AtElectrode& at = electrodes[static_cast<std::size_t>(p)];
     const Poles& pole = poles[static_cast<std::size_t>(p)];
