@@ -1,5 +1,7 @@
 #include "model/FieldAtRest.h"
 
+#include "model/RowColumnResistance.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +54,12 @@ Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
 
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law, SphereModel model) {
   return {potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), law, model), wireCounts(design), law.wire_ohm};
+}
+
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design) {
+  if (const FieldLaw* law = design.field())
+    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
+  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
 }
 
 } // namespace palp

@@ -38,5 +38,7 @@ double contactResistance_ohm(const FieldLaw& law);
 /// The wires of a design at rest under a law of the field.
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law,
                               SphereModel model = SphereModel::Dipoles);
+/// Resistances [ohm] of a design at rest by its own law, row-wires x column-wires.
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 } // namespace palp

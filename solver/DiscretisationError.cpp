@@ -76,12 +76,12 @@ double scaleOfDifference(const HyperelasticProblem& problem, const HyperelasticP
 double resistanceDifference(const SensorDesign& design, const Eigen::MatrixXd& resistances_ohm,
                             const HyperelasticProblem& other, const Solution& otherSolution, int threads,
                             const std::stop_token& stop) {
-  const FieldLaw& law = *design.field();
   const auto network = ConductionField(other).network(otherSolution.state(), threads, stop);
   if (!network) throw Cancelled();
-  const Eigen::ArrayXXd rest = NetworkReading(networkAtRest(design, law), law.readout).resistances_ohm().array().log();
+  const Eigen::ArrayXXd rest = resistancesAtRest_ohm(design).array().log();
   const Eigen::ArrayXXd change = resistances_ohm.array().log() - rest;
-  const Eigen::ArrayXXd others = NetworkReading(*network, law.readout).resistances_ohm().array().log() - rest;
+  const Eigen::ArrayXXd others =
+      NetworkReading(*network, design.field()->readout).resistances_ohm().array().log() - rest;
   const double norm = change.matrix().norm();
   return norm > 0 ? (change - others).matrix().norm() / norm : 0;
 }

@@ -5,7 +5,6 @@
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
-#include "model/RowColumnResistance.h"
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -22,12 +21,6 @@ namespace palp {
 namespace {
 
 constexpr double kLeastPressesInRange = 6e6;
-
-Eigen::MatrixXd restOf(const SensorDesign& design) {
-  if (const FieldLaw* law = design.field())
-    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
-  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-}
 
 /// Where the decoder's inputs stand among the readings, row-wires first.
 std::vector<Eigen::Index> readingsOf(const DecoderInput& input) {
@@ -92,7 +85,7 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
   surface(0);
   const auto found = InfluenceSurfaces::find(problem, readings, threads, stop, surface);
   if (!found) throw Cancelled();
-  const Eigen::MatrixXd all_ohm = restOf(design);
+  const Eigen::MatrixXd all_ohm = resistancesAtRest_ohm(design);
   const Eigen::VectorXd rest_ohm = all_ohm.reshaped()(used);
   const Eigen::Vector2d face_mm = design.block_mm.head<2>();
   return
