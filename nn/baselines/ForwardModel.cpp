@@ -1,6 +1,7 @@
 #include "nn/baselines/ForwardModel.h"
 
 #include "model/base/GotExpected.h"
+#include "model/base/Monomials.h"
 #include "model/base/PositiveSolve.h"
 #include "nn/NetworkError.h"
 #include "nn/linear/RidgeFit.h"
@@ -18,28 +19,6 @@ Eigen::Index monomialCount(Eigen::Index parameters, int degree) {
 }
 
 namespace {
-
-/// Exponents of all monomials of `parameters` variables up to `degree`, one column each, the constant first.
-Eigen::MatrixXi exponents(Eigen::Index parameters, int degree) {
-  std::vector<Eigen::VectorXi> all{Eigen::VectorXi::Zero(parameters)};
-  std::size_t first = 0;
-  for (int d = 1; d <= degree; ++d) {
-    const std::size_t last = all.size();
-    for (std::size_t i = first; i < last; ++i) {
-      // Raise only variables from the last one in use on: each monomial comes up once.
-      Eigen::Index from = parameters - 1;
-      while (from > 0 && all[i](from) == 0) --from;
-      for (Eigen::Index v = from; v < parameters; ++v) {
-        all.push_back(all[i]);
-        ++all.back()(v);
-      }
-    }
-    first = last;
-  }
-  Eigen::MatrixXi result(parameters, static_cast<Eigen::Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = all[i];
-  return result;
-}
 
 /// The monomials at y, and on request their derivatives (monomials x parameters).
 Eigen::VectorXd monomials(const Eigen::MatrixXi& exponent, const Eigen::VectorXd& y, Eigen::MatrixXd* slope) {
@@ -105,7 +84,8 @@ Eigen::VectorXd ForwardModel::measurementsOf(std::size_t c, const Eigen::Ref<con
                                              Eigen::MatrixXd* jacobian) const {
   const Eigen::VectorXd scaled = (y - parameterOffset).cwiseProduct(parameterFactor);
   Eigen::MatrixXd slope;
-  const Eigen::VectorXd value = monomials(exponents(parameters(), degree), scaled, jacobian ? &slope : nullptr);
+  const Eigen::VectorXd value =
+      monomials(monomialExponents(parameters(), 0, degree), scaled, jacobian ? &slope : nullptr);
   if (jacobian) *jacobian = coefficients[c] * slope * parameterFactor.asDiagonal();
   return coefficients[c] * value;
 }
@@ -127,7 +107,7 @@ ForwardModel fitForwardModel(const Eigen::Ref<const Eigen::MatrixXd>& measuremen
   model.parameterOffset = (low + high) / 2;
   model.parameterFactor = (high - low).unaryExpr([](double range) { return range > 0 ? 2 / range : 0; });
 
-  const Eigen::MatrixXi exponent = exponents(parameters.rows(), model.degree);
+  const Eigen::MatrixXi exponent = monomialExponents(parameters.rows(), 0, model.degree);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(measurements.rows());
   for (const auto& list : members) {
     Eigen::MatrixXd features(static_cast<Eigen::Index>(list.size()), exponent.cols());
@@ -165,7 +145,7 @@ struct LikelihoodInversion::Posterior {
 LikelihoodInversion::LikelihoodInversion(const ForwardModel& model)
     : parameterOffset_(model.parameterOffset),
       parameterWidth_(model.parameterFactor.unaryExpr([](double f) { return f > 0 ? 1 / f : 0; })),
-      measurements_(model.measurements()), exponent_(exponents(model.parameters(), model.degree)) {
+      measurements_(model.measurements()), exponent_(monomialExponents(model.parameters(), 0, model.degree)) {
   const Eigen::VectorXd weight = model.deviation.cwiseInverse();
   for (const Eigen::MatrixXd& coefficients : model.coefficients) {
     Class c;

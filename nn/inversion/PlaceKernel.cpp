@@ -1,5 +1,7 @@
 #include "nn/inversion/PlaceKernel.h"
 
+#include "model/base/Monomials.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,27 +9,16 @@ namespace palp {
 
 Eigen::MatrixXi placeMonomials(Eigen::Index inputs, const std::vector<Eigen::Index>& others,
                                const std::vector<int>& amplitudes, int degree) {
-  std::vector<Eigen::VectorXi> all;
-  const int least = amplitudes.empty() ? 0 : 1;
-  for (int total = least; total <= degree; ++total) {
-    Eigen::VectorXi now = Eigen::VectorXi::Zero(inputs);
-    const auto fill = [&](const auto& self, std::size_t k, int left) -> void {
-      if (k == others.size()) {
-        const bool strong = std::any_of(amplitudes.begin(), amplitudes.end(), [&](int s) { return now(s) > 0; });
-        if (left == 0 && (least == 0 || strong)) all.push_back(now);
-        return;
-      }
-      for (int power = left; power >= 0; --power) {
-        now(others[k]) = power;
-        self(self, k + 1, left - power);
-      }
-      now(others[k]) = 0;
-    };
-    fill(fill, 0, total);
+  const Eigen::MatrixXi all =
+      monomialExponents(static_cast<Eigen::Index>(others.size()), amplitudes.empty() ? 0 : 1, degree);
+  Eigen::MatrixXi exponents = Eigen::MatrixXi::Zero(inputs, all.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index j = 0; j < all.cols(); ++j) {
+    exponents(others, count) = all.col(j);
+    const auto contains = [&](int amplitude) { return exponents(amplitude, count) > 0; };
+    if (amplitudes.empty() || std::any_of(amplitudes.begin(), amplitudes.end(), contains)) ++count;
   }
-  Eigen::MatrixXi exponents(inputs, static_cast<Eigen::Index>(all.size()));
-  for (std::size_t j = 0; j < all.size(); ++j) exponents.col(static_cast<Eigen::Index>(j)) = all[j];
-  return exponents;
+  return exponents.leftCols(count);
 }
 
 Eigen::MatrixXd monomialsOf(const SplineTable& form, const Eigen::MatrixXd& inputs, double decay, int least) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <vector>
 
 namespace palp {
@@ -15,14 +14,14 @@ class ForcePolynomial {
 public:
   ForcePolynomial(const ForceRange& range, int degree);
 
-  [[nodiscard]] int terms() const { return static_cast<int>(exponents_.size()); }
+  [[nodiscard]] int terms() const { return static_cast<int>(exponents_.cols()); }
   [[nodiscard]] Eigen::VectorXd monomials(const Eigen::Vector3d& force_N) const;
   /// Least squares: coefficients = values * this (points x terms), where column i of values belongs to force i.
   [[nodiscard]] Eigen::MatrixXd fit(const std::vector<Eigen::Vector3d>& forces_N) const;
 
 private:
   Eigen::Vector3d scale_;
-  std::vector<std::array<int, 3>> exponents_;
+  Eigen::MatrixXi exponents_; ///< 3 x terms
 };
 
 /// Whether a force lies in the range.
