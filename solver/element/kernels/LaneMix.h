@@ -99,8 +99,8 @@ PALP_INLINE void followMixed(const double* directions, int count, const LaneMix&
 /// Initial guess of lanes that start a load increment.
 PALP_INLINE void beginLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const InitialGuess& guess) {
   for (int lane = 0; lane < 8; lane += packSize) {
-    const NarrowMask from = loadMask(starts.begins + lane), on = loadMask(starts.ahead + lane);
-    const WideMask rest = __builtin_convertvector(loadMask(starts.atRest + lane), WideMask);
+    const NarrowMask from = loadMask(guess.begins + lane), on = loadMask(guess.ahead + lane);
+    const WideMask rest = __builtin_convertvector(loadMask(guess.atRest + lane), WideMask);
     for (int i = 0; i < rows; ++i) {
       double* value = values + i * stride + lane;
       float* past = before + i * stride + lane;
