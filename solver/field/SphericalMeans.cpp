@@ -4,12 +4,10 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 namespace palp {
 
@@ -57,31 +55,6 @@ const SphereRule& sphereRule() {
 
 } // namespace
 
-SphericalMeans::SphericalMeans(const FieldMesh& mesh)
-    : mesh_(&mesh), across_(Eigen::MatrixXi::Constant(4, mesh.elements(), -1)) {
-  struct Face {
-    std::array<int, 3> corners; ///< ascending
-    int element, opposite;
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * std::size_t(mesh.elements()));
-  for (int e = 0; e < mesh.elements(); ++e)
-    for (int corner = 0; corner < 4; ++corner) {
-      Face face{{}, e, corner};
-      for (int k = 0, i = 0; k < 4; ++k)
-        if (k != corner) face.corners[std::size_t(i++)] = mesh.tets().elements(k, e);
-      std::sort(face.corners.begin(), face.corners.end());
-      faces.push_back(face);
-    }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.corners < b.corners; });
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    const Face &a = faces[i - 1], &b = faces[i];
-    if (a.corners != b.corners) continue;
-    across_(a.opposite, a.element) = b.element;
-    across_(b.opposite, b.element) = a.element;
-  }
-}
-
 /// Through the face that the point lies behind most, until it is behind none or the block ends.
 SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int from) const {
   constexpr int mostSteps = 100;
@@ -95,7 +68,7 @@ SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int
     place.barycentric(0) += 1;
     Eigen::Index behind = 0;
     if (place.barycentric.minCoeff(&behind) > outside) break;
-    const int next = across_(behind, place.element);
+    const int next = mesh_->neighbours()(behind, place.element);
     if (next < 0) break;
     place.element = next;
   }

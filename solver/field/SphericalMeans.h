@@ -30,7 +30,7 @@ struct AtElectrode {
 /// Quadratures on a sphere, 1976, exact to degree 11), so a kink of the law may lie anywhere.
 class SphericalMeans {
 public:
-  explicit SphericalMeans(const FieldMesh& mesh);
+  explicit SphericalMeans(const FieldMesh& mesh) : mesh_(&mesh) {}
 
   /// An electrode at `point_mm` in the deformed block, with its location in its host element.
   struct Electrode {
@@ -51,7 +51,6 @@ private:
   [[nodiscard]] Place find(const Eigen::Vector3d& atRest_mm, int from) const;
 
   const FieldMesh* mesh_;
-  Eigen::MatrixXi across_; ///< 4 x elements: the element behind the face opposite to each corner; -1: none
 };
 
 } // namespace palp
