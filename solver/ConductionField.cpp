@@ -127,7 +127,7 @@ std::optional<CurrentField> ConductionField::current(const LoadIncrement& state,
   const Eigen::Index nodes = state_->problem.mesh().nodeCount();
   CurrentField field{(rho * found->value.head(nodes)).array() + shift, -found->gradient.leftCols(nodes), {}, currents};
   Eigen::ArrayXd logarithms = Eigen::ArrayXd::Zero(nodes); // ln k
-  if (const Conductivity& k = places.conductivity; k.heterogeneous())
+  if (const FieldConductivity& k = places.conductivity; k.heterogeneous())
     logarithms = k.pressures_MPa.head(nodes).unaryExpr([&](double p) { return 2 * k.halfLogConductivity(p); });
   field.currentDensity_A_per_mm2 *= logarithms.exp().matrix().asDiagonal();
   field.powerDensity_W_per_mm3 = rho * field.currentDensity_A_per_mm2.colwise().squaredNorm().transpose();

@@ -151,7 +151,7 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
                                                 const std::vector<Eigen::Matrix3Xd>& sources_mm,
                                                 const FieldFunctions& functions, int threads,
                                                 const std::stop_token& stop) const {
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const bool heterogeneous = conductivity.heterogeneous();
   const auto count = static_cast<int>(sources_mm.size());
   const BoundaryQuadrature boundary(faces_, nodes_mm);

@@ -28,7 +28,7 @@ public:
                           const FieldFunctions& functions, int threads, const std::stop_token& stop) const;
   /// Of the functions (FieldFunctions) that the rows of `right` belong to, ascending: those of the boundary's nodes, or
   /// all where k varies.
-  [[nodiscard]] const std::vector<int>& rows(const Conductivity& conductivity) const {
+  [[nodiscard]] const std::vector<int>& rows(const FieldConductivity& conductivity) const {
     return conductivity.heterogeneous() ? all_ : boundary_;
   }
 

@@ -25,13 +25,13 @@ using Volumes = Eigen::Matrix<double, FieldFunctions::most, 1>;
 
 ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh), uniform_(numbering(10)) {}
 
-const ConductionMatrix::Numbering& ConductionMatrix::numberingOf(const Conductivity& conductivity) const {
+const ConductionMatrix::Numbering& ConductionMatrix::numberingOf(const FieldConductivity& conductivity) const {
   if (!conductivity.heterogeneous()) return uniform_;
   std::call_once(heterogeneousFound_, [&] { heterogeneous_ = numbering(FieldFunctions::most); });
   return heterogeneous_;
 }
 
-const std::shared_ptr<const CholeskyPlan>& ConductionMatrix::plan(const Conductivity& conductivity) const {
+const std::shared_ptr<const CholeskyPlan>& ConductionMatrix::plan(const FieldConductivity& conductivity) const {
   return numberingOf(conductivity).plan;
 }
 
@@ -80,7 +80,7 @@ ConductionMatrix::Numbering ConductionMatrix::numbering(int functions) const {
 ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                               int threads) const {
   const TetRule& rule = tetRule();
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const Numbering& numbering = numberingOf(conductivity);
   const Eigen::MatrixXi& elements = mesh_->tets().elements;
   const auto most = static_cast<std::size_t>(numbering.functions);

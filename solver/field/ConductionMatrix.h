@@ -26,7 +26,7 @@ public:
   };
   [[nodiscard]] Values at(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions, int threads) const;
   /// Of Values::matrix.
-  [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan(const Conductivity& conductivity) const;
+  [[nodiscard]] const std::shared_ptr<const CholeskyPlan>& plan(const FieldConductivity& conductivity) const;
 
 private:
   struct Numbering {
@@ -36,7 +36,7 @@ private:
     std::shared_ptr<const CholeskyPlan> plan{};
   };
   [[nodiscard]] Numbering numbering(int functions) const;
-  [[nodiscard]] const Numbering& numberingOf(const Conductivity& conductivity) const;
+  [[nodiscard]] const Numbering& numberingOf(const FieldConductivity& conductivity) const;
 
   const FieldMesh* mesh_;
   Numbering uniform_;

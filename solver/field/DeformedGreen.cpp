@@ -171,7 +171,7 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   SparseCholesky factor(matrix_.plan(state.conductivity));
   if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite) {
     constexpr double mostContrast = 1e9; // that the equations bear
-    const Conductivity& k = state.conductivity;
+    const FieldConductivity& k = state.conductivity;
     const double contrast = k.heterogeneous() ? std::exp(2 * k.halfLogConductivity(k.pressures_MPa.maxCoeff())) : 1;
     if (!(contrast < mostContrast))
       throw DesignError("resistance.pressure_law: conductivity under the largest pressure: " +
@@ -351,7 +351,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   NodalPotential result{field.head(mesh_.nodes()), Eigen::Matrix3Xd::Zero(3, mesh_.nodes()),
                         Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
-  const Conductivity& k = state.conductivity;
+  const FieldConductivity& k = state.conductivity;
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
     Eigen::Matrix<double, FieldFunctions::most, 1> values = Eigen::Matrix<double, FieldFunctions::most, 1>::Zero();

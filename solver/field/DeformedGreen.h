@@ -3,7 +3,7 @@
 #include "model/BoxGreen.h"
 #include "solver/field/BoundaryIntegrals.h"
 #include "solver/field/ConductionMatrix.h"
-#include "solver/field/Conductivity.h"
+#include "solver/field/FieldConductivity.h"
 #include "solver/field/FieldSources.h"
 #include "solver/field/HeterogeneousConductivity.h"
 #include "solver/field/SphericalMeans.h"
@@ -19,7 +19,7 @@ namespace palp {
 struct FieldState {
   Eigen::Matrix3Xd nodes_mm;
   Eigen::Matrix3Xd electrodes_mm;
-  Conductivity conductivity{};
+  FieldConductivity conductivity{};
   double radius_mm = 0; ///< of the electrodes, on whose spheres a heterogeneous conductivity acts
 };
 

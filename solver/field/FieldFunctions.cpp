@@ -15,13 +15,13 @@ namespace {
 
 using AtNodes = Eigen::Matrix<double, 10, 1>;
 
-AtNodes inverseRoots(const Conductivity& conductivity, const AtNodes& pressures) {
+AtNodes inverseRoots(const FieldConductivity& conductivity, const AtNodes& pressures) {
   return pressures.unaryExpr([&](double p) { return std::exp(-conductivity.halfLogConductivity(p)); });
 }
 
 /// Whether 1/m is other than quadratic. Smaller functions add no more than what they make better where k is even, which
 /// the mesh at rest has without them: 1e-5 of ln R by virtual ground, however weak the law is.
-bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
+bool isRoughInside(const FieldConductivity& conductivity, const AtNodes& pressures) {
   constexpr double least = 1e-3;
   if (!(pressures.array() > 0).any()) return false;
   const AtNodes roots = inverseRoots(conductivity, pressures);
@@ -35,7 +35,7 @@ bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
 
 } // namespace
 
-FieldFunctions::FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads)
+FieldFunctions::FieldFunctions(const FieldMesh& mesh, FieldConductivity conductivity, int threads)
     : mesh_(&mesh), conductivity_(std::move(conductivity)) {
   if (!conductivity_.heterogeneous()) return;
   const Eigen::MatrixXi& elements = mesh.tets().elements;

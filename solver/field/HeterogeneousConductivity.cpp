@@ -18,7 +18,7 @@ namespace palp {
 HeterogeneousConductivity::HeterogeneousConductivity(const FieldMesh& mesh, const Eigen::Matrix3Xd& nodes_mm,
                                                      const FieldFunctions& functions, int threads)
     : mesh_(&mesh), functions_(&functions) {
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const Eigen::MatrixXi& nodes = mesh.tets().elements;
   const auto pressuresOf = [&](int e) -> Eigen::Matrix<double, 10, 1> {
     return conductivity.pressures_MPa(nodes.col(e));

@@ -78,7 +78,7 @@ SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int
 AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                    const Electrode& electrode) const {
   const Mesh& tets = mesh_->tets();
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const SphereRule& rule = sphereRule();
   const auto own = tets.elements.col(electrode.element);
   AtElectrode result;

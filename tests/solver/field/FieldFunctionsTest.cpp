@@ -21,8 +21,8 @@ struct Pressed {
   explicit Pressed(unsigned seed, const std::function<double(const Eigen::Vector3d&)>& pressure)
       : mesh(sensorMesh(randomLayout(seed, 0.8))), functions(mesh, conductivity(pressure), 2) {}
 
-  [[nodiscard]] Conductivity conductivity(const std::function<double(const Eigen::Vector3d&)>& pressure) const {
-    Conductivity k{Eigen::VectorXd(mesh.nodes()), {.p0_MPa = 0.1, .exponent = 1.5}};
+  [[nodiscard]] FieldConductivity conductivity(const std::function<double(const Eigen::Vector3d&)>& pressure) const {
+    FieldConductivity k{Eigen::VectorXd(mesh.nodes()), {.p0_MPa = 0.1, .exponent = 1.5}};
     for (int n = 0; n < mesh.nodes(); ++n) k.pressures_MPa(n) = pressure(mesh.tets().nodes_mm.col(n));
     return k;
   }
@@ -105,7 +105,7 @@ TEST_P(FieldFunctionsOf, HaveTheirDerivatives) {
 
 TEST_P(FieldFunctionsOf, MakeUpWhatAQuadraticFunctionLeavesOfTheInverseRoot) {
   const Pressed pressed(GetParam(), wave);
-  const Conductivity& k = pressed.functions.conductivity();
+  const FieldConductivity& k = pressed.functions.conductivity();
   const Eigen::Vector4d place(0.4, 0.3, 0.2, 0.1);
   for (int e = 0; e < pressed.mesh.elements(); ++e) {
     const Eigen::Matrix<double, 10, 1> pressures = k.pressures_MPa(pressed.mesh.tets().elements.col(e));

@@ -6,9 +6,9 @@
 
 namespace palp {
 
-/// Conductivity k of the deformed block by a pressure law. The pressure is interpolated to the points of a quadrature
-/// and the law applied there, since its kink at p = 0 lies between the nodes.
-struct Conductivity {
+/// FieldConductivity k of the deformed block by a pressure law. The pressure is interpolated to the points of a
+/// quadrature and the law applied there, since its kink at p = 0 lies between the nodes.
+struct FieldConductivity {
   Eigen::VectorXd pressures_MPa{}; ///< at the nodes, quadratic between; empty: k = 1
   PressureLaw law{};
 
