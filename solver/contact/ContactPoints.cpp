@@ -49,6 +49,13 @@ Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh) {
   return {indenter.place_mm.x(), indenter.place_mm.y(), mesh.nodes_mm.row(2).maxCoeff()};
 }
 
+Eigen::Matrix3Xd tipsAtRest_mm(const std::vector<Indenter>& indenters, const Mesh& mesh) {
+  Eigen::Matrix3Xd tips_mm(3, static_cast<Eigen::Index>(indenters.size()));
+  for (std::size_t k = 0; k < indenters.size(); ++k)
+    tips_mm.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters[k], mesh);
+  return tips_mm;
+}
+
 std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design,
                                           const std::vector<LoadCase>& path, double margin) {
   struct Tip {

@@ -24,6 +24,9 @@ std::vector<ContactPoint> contactPoints(const Mesh& mesh);
 /// Position of the lowest point of an indenter before it moves: on the top face, at its position.
 Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh);
 
+/// The same of all indenters, 3 x indenters.
+Eigen::Matrix3Xd tipsAtRest_mm(const std::vector<Indenter>& indenters, const Mesh& mesh);
+
 /// The candidate points: those inside an indenter that moves through the undeformed body along its path from load to
 /// load, `margin` times as deep as estimated.
 std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design,

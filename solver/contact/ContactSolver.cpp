@@ -39,11 +39,7 @@ constexpr int iterationsOfNewTangent = 5; // of a load step; further iterations 
 ContactSolver::ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design,
                              const std::vector<LoadCase>& path, NewtonOptions options, NewtonObserver observer)
     : assembler_(assembler), mesh_(mesh), design_(design), path_(path), indenters_(path.front().indenters),
-      options_(options), observer_(std::move(observer)) {
-  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
-  for (std::size_t k = 0; k < indenters_.size(); ++k)
-    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
-}
+      options_(options), observer_(std::move(observer)), tips_mm_(tipsAtRest_mm(indenters_, mesh)) {}
 
 void ContactSolver::choosePoints(double margin) {
   points_ = touchablePoints(mesh_, design_, path_, margin);
@@ -261,13 +257,7 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
 ContactSolver::Outcome ContactSolver::step(double from, double to, State& state, TangentialControl control) {
   const Discretisation& mesh = assembler_.discretisation();
   std::vector<ContactTarget> goal = targets(to);
-  if (control == TangentialControl::Displacement)
-    for (std::size_t k = 0; k < goal.size(); ++k)
-      for (const int c : {0, 1})
-        if (goal[k].free(c)) {
-          goal[k].free(c) = false;
-          goal[k].translation_mm(c) = state.contact.translations_mm(c, static_cast<Eigen::Index>(k));
-        }
+  if (control == TangentialControl::Displacement) (void)constrainTangentially(goal, state.contact);
   contact_->startStep(positions(state.rubber.displacements), state.contact);
   if (now_ == 0 && from == 0)
     for (std::size_t k = 0; k < goal.size(); ++k) {
@@ -347,13 +337,9 @@ bool ContactSolver::touchesBeyond(const State& state) const {
   for (const ContactPoint& point : points_) candidate[static_cast<std::size_t>(point.node)] = true;
   for (const ContactPoint& point : contactPoints(mesh_)) {
     if (candidate[static_cast<std::size_t>(point.node)]) continue;
-    for (std::size_t k = 0; k < indenters_.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
-                                    state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
-                                    tips_mm_.col(column) - state.contact.translations_mm.col(column);
-      if (distance(indenters_[k], place).gap_mm < -allowed_mm) return true;
-    }
+    const Eigen::Vector3d position_mm =
+        mesh_.nodes_mm.col(point.node) + state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node));
+    if (penetrates(indenters_, tips_mm_ + state.contact.translations_mm, position_mm, allowed_mm)) return true;
   }
   return false;
 }

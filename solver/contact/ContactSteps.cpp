@@ -46,6 +46,26 @@ std::vector<ContactTarget> contactTargets(const std::vector<Indenter>& parts,
   return all;
 }
 
+bool constrainTangentially(std::vector<ContactTarget>& targets, const ContactState& state) {
+  bool any = false;
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    for (const int c : {0, 1})
+      if (targets[k].free(c)) {
+        targets[k].free(c) = false;
+        targets[k].translation_mm(c) = state.translations_mm(c, static_cast<Eigen::Index>(k));
+        any = true;
+      }
+  return any;
+}
+
+bool penetrates(const std::vector<Indenter>& indenters, const Eigen::Matrix3Xd& tips_mm,
+                const Eigen::Vector3d& position_mm, double allowed_mm) {
+  for (std::size_t k = 0; k < indenters.size(); ++k)
+    if (distance(indenters[k], position_mm - tips_mm.col(static_cast<Eigen::Index>(k))).gap_mm < -allowed_mm)
+      return true;
+  return false;
+}
+
 bool slidAway(const std::vector<Indenter>& indenters, std::span<const ContactEstimate> expected,
               const ContactState& from, const ContactState& to) {
   for (std::size_t k = 0; k < indenters.size(); ++k) {

@@ -31,6 +31,13 @@ std::vector<ContactEstimate> contactEstimates(const std::vector<Indenter>& inden
 std::vector<ContactTarget> contactTargets(const std::vector<Indenter>& parts,
                                           std::span<const ContactEstimate> expected);
 
+/// Holds the tangentially free indenters of `targets` at their translations in `state`; false if there are none.
+bool constrainTangentially(std::vector<ContactTarget>& targets, const ContactState& state);
+
+/// Whether a position is deeper than `allowed_mm` inside an indenter; tips 3 x indenters.
+bool penetrates(const std::vector<Indenter>& indenters, const Eigen::Matrix3Xd& tips_mm,
+                const Eigen::Vector3d& position_mm, double allowed_mm);
+
 /// Whether a force-controlled indenter with friction has slid off its position (gross slip).
 bool slidAway(const std::vector<Indenter>& indenters, std::span<const ContactEstimate> expected,
               const ContactState& from, const ContactState& to);

@@ -8,11 +8,8 @@ namespace palp {
 FrictionContact::FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top,
                                  const Mesh& mesh, const SensorDesign& design)
     : indenters_(std::move(indenters)), top_(std::move(top)), mesh_(mesh), design_(design),
-      expected_(contactEstimates(indenters_, design)),
+      tips_mm_(tipsAtRest_mm(indenters_, mesh)), expected_(contactEstimates(indenters_, design)),
       steps_(static_cast<int>(std::lround(1 / largestContactStep(indenters_, true)))) {
-  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
-  for (std::size_t k = 0; k < indenters_.size(); ++k)
-    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
   choosePoints(margin_);
   state_ = untouched(points_.size(), indenters_.size());
   beginStep(Eigen::Matrix3Xd::Zero(3, top_->count()));
@@ -58,17 +55,9 @@ void FrictionContact::beginStep(const Eigen::Matrix3Xd& motion_mm) {
 /// belongs to them. Returns false if that was done already, or no indenter is free.
 bool FrictionContact::constrain() {
   if (tangential_ != TangentialControl::Force) return false;
-  bool any = false;
-  for (std::size_t k = 0; k < targets_.size(); ++k)
-    for (const int c : {0, 1})
-      if (targets_[k].free(c)) {
-        targets_[k].free(c) = false;
-        targets_[k].translation_mm(c) = start_.translations_mm(c, static_cast<Eigen::Index>(k));
-        any = true;
-      }
   tangential_ = TangentialControl::Displacement;
   modeChanged_ = true;
-  return any;
+  return constrainTangentially(targets_, start_);
 }
 
 void FrictionContact::release(const Eigen::Matrix3Xd& motion_mm) {
@@ -137,13 +126,8 @@ bool FrictionContact::touchesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
   const double allowed_mm = top_->places_mm().row(2).maxCoeff() / penetrationOfHeight;
   for (int i = 0; i < top_->count(); ++i) {
     if (std::binary_search(numbers_.begin(), numbers_.end(), i)) continue;
-    const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
-    for (std::size_t k = 0; k < indenters_.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      if (distance(indenters_[k], place_mm - tips_mm_.col(column) - state_.translations_mm.col(column)).gap_mm <
-          -allowed_mm)
-        return true;
-    }
+    const Eigen::Vector3d position_mm = top_->places_mm().col(i) + motion_mm.col(i);
+    if (penetrates(indenters_, tips_mm_ + state_.translations_mm, position_mm, allowed_mm)) return true;
   }
   return false;
 }
