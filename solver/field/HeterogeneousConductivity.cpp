@@ -170,7 +170,8 @@ void HeterogeneousConductivity::addIntegrals(const std::vector<Eigen::Matrix3Xd>
       for (int q = 0; q < count; ++q) {
         const Eigen::Matrix3Xd& images = sources_mm[static_cast<std::size_t>(q)];
         double there = 0;
-        for (Eigen::Index m = p == q ? 1 : 0; m < images.cols(); ++m) there += 1 / (kFourPi * (images.col(m) - place).norm());
+        for (Eigen::Index m = p == q ? 1 : 0; m < images.cols(); ++m)
+          there += 1 / (kFourPi * (images.col(m) - place).norm());
         others(q, p) = there * poles[own].simple;
       }
     }
