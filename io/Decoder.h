@@ -4,12 +4,12 @@
 #include "model/SensorDesign.h"
 #include "nn/RbfNetwork.h"
 #include "nn/RbfTrainer.h"
+#include "nn/baselines/BackPropagation.h"
+#include "nn/baselines/ForwardModel.h"
+#include "nn/baselines/GaussianProcess.h"
+#include "nn/baselines/PolynomialRidge.h"
+#include "nn/inversion/KernelInversion.h"
 #include "nn/measured/MeasuredFit.h"
-#include "nn/rivals/BackPropagation.h"
-#include "nn/rivals/ForwardModel.h"
-#include "nn/rivals/GaussianProcess.h"
-#include "nn/rivals/KernelInversion.h"
-#include "nn/rivals/PolynomialRidge.h"
 
 #include <optional>
 #include <string>

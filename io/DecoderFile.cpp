@@ -121,10 +121,10 @@ Eigen::Index outputsOf(const Decoder& decoder) {
       [](const auto& model) -> Eigen::Index {
         using Model = std::decay_t<decltype(model)>;
         if constexpr (std::is_same_v<Model, KernelForwardModel>)
-          return std::min<Eigen::Index>(model.causes(),
+          return std::min<Eigen::Index>(model.parameters(),
                                         kTouchOutputs); // after them what is found beside: size, friction
         else if constexpr (std::is_same_v<Model, ForwardModel>)
-          return model.causes();
+          return model.parameters();
         else if constexpr (std::is_same_v<Model, TwoStep>)
           return model.force.outputs();
         else
@@ -167,7 +167,7 @@ void requireFitting(const JsonPlace& root, const Decoder& decoder) {
   if (decoder.residual_N.cols() < 1) root.at("residual_N").refuse("one column or more");
   if (decoder.areas) {
     requireSize(root.at("areas"), decoder.areas->measurements(), decoder.inputs(), "measurements, one per input");
-    requireSize(root.at("areas"), decoder.areas->causes(), forces, "causes, one per component of the force");
+    requireSize(root.at("areas"), decoder.areas->parameters(), forces, "causes, one per component of the force");
   }
   requireAreas(root, decoder);
 }

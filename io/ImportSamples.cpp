@@ -185,7 +185,7 @@ private:
       resizeSamples(block_, atOnce);
       Eigen::Index count = 0;
       while (count < atOnce && (more = rows.next(row_, problems_))) {
-        stopIfAsked(stop);
+        throwIfStopped(stop);
         if (take(rows, run, count)) ++count;
       }
       resizeSamples(block_, count);

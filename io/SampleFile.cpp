@@ -99,7 +99,7 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
   }
   SampleWriter writer(path, set, force);
   for (Eigen::Index first = 0; first < set.size(); first += kSamplesAtOnce) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     writer.append(block(first, std::min(kSamplesAtOnce, set.size() - first)));
   }
   writer.finish(stop);
@@ -108,7 +108,7 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
 SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool alsoTwoAtOnce) {
   const auto reader = openSamples(path, stop);
   SampleSet set = reader->head();
-  if (set.beside.rows() > 0 && !alsoTwoAtOnce)
+  if (set.secondTouch.rows() > 0 && !alsoTwoAtOnce)
     throw Error(path.string() + ": touches in each sample: " +
                 gotExpected("2 at once", "1 (palp predict takes two, and counts those distinguished from one)"));
   if (const auto size = reader->size()) {

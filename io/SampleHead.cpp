@@ -148,7 +148,7 @@ void readColumns(const SampleLines& lines, const std::string& line, SampleSet& s
   set.touches.resize(touches ? kTouchRows : 0, 0);
   set.places_mm.resize(!touches && line.find(",x_mm,y_mm,") != std::string::npos ? 2 : 0, 0);
   set.forces_N.resize(loadedTogether(set) ? 3 * set.areaCount : 3, 0);
-  set.beside.resize(touches && line.find(",shape_2,") != std::string::npos ? kBesideRows : 0, 0);
+  set.secondTouch.resize(touches && line.find(",shape_2,") != std::string::npos ? kSecondTouchRows : 0, 0);
   set.displacements_mm.resize(displacements ? 3 * rowWires * set.electrodesPerRowWire : 0, 0);
   set.resistances_ohm.resize(resistances ? rowWires * set.columnWires : 0, 0);
   // First the number, so that a head with sizes beyond reason is refused before all their names are made.
@@ -175,7 +175,7 @@ void requireArea(const SampleLines& lines, const SampleSet& head, int area) {
 
 /// Whether this row of this part has shapes.
 bool isShape(Eigen::MatrixXd SampleSet::*part, Eigen::Index row) {
-  return (part == &SampleSet::touches || part == &SampleSet::beside) && row == kTouchShape;
+  return (part == &SampleSet::touches || part == &SampleSet::secondTouch) && row == kTouchShape;
 }
 
 /// The number that stands for a shape there.
@@ -233,7 +233,7 @@ std::string sampleColumns(const SampleSet& set) {
     for (int a = 0; a < set.areaCount; ++a)
       for (const char axis : {'x', 'y', 'z'}) names += ",a" + std::to_string(a) + "_f" + axis + "_N";
   }
-  if (set.beside.rows() > 0) names += ",shape_2,size_2_mm,friction_2,x_2_mm,y_2_mm,fx_2_N,fy_2_N,fz_2_N";
+  if (set.secondTouch.rows() > 0) names += ",shape_2,size_2_mm,friction_2,x_2_mm,y_2_mm,fx_2_N,fy_2_N,fz_2_N";
   for (int r = 0; r < set.rowWires && set.displacements_mm.rows() > 0; ++r)
     for (int e = 0; e < set.electrodesPerRowWire; ++e)
       for (const char axis : {'x', 'y', 'z'})

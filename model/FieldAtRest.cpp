@@ -1,5 +1,7 @@
 #include "model/FieldAtRest.h"
 
+#include "model/RowColumnResistance.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -26,15 +28,15 @@ double contactResistance_ohm(const FieldLaw& law) {
 Eigen::MatrixXd potentials_ohm(const BoxGreen& green, const FieldLaw& law, SphereModel model,
                                const Eigen::VectorXd& conductivities) {
   const double a = law.electrodeRadius_mm;
-  const bool uneven = conductivities.size() > 0;
+  const bool heterogeneous = conductivities.size() > 0;
   Eigen::MatrixXd p = green.value;
-  if (uneven)
+  if (heterogeneous)
     p.diagonal().array() += 1 / (4 * std::numbers::pi * a * conductivities.array());
   else
     p.diagonal().array() += 1 / (4 * std::numbers::pi * a);
   if (model == SphereModel::Dipoles)
     for (const Eigen::MatrixXd& slope : green.slope) {
-      if (uneven)
+      if (heterogeneous)
         p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * conductivities.asDiagonal() * slope;
       else
         p -= 4 * std::numbers::pi * a * a * a * slope.transpose() * slope;
@@ -52,6 +54,12 @@ Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
 
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law, SphereModel model) {
   return {potentialsAtRest_ohm(design.block_mm, electrodes_mm(design), law, model), wireCounts(design), law.wire_ohm};
+}
+
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design) {
+  if (const FieldLaw* law = design.field())
+    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
+  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
 }
 
 } // namespace palp

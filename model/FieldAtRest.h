@@ -21,7 +21,7 @@ Eigen::Matrix3Xd electrodes_mm(const SensorDesign& design);
 /// The matrix P [ohm] between small spheres of radius a in the insulated box at rest (electrodes x electrodes):
 ///   P_pq = rho G(x_p, x_q),   P_pp = rho (1 / (4 pi a) + G_reg(x_p)) + contact / (4 pi a^2),
 /// and with dipoles   - 4 pi a^3 rho sum_s grad G(x_s, x_p) . grad G(x_s, x_q): a conducting sphere in a field E has
-/// the dipole moment 4 pi a^3 E. What is left out is of fourth order in a over a distance.
+/// the dipole moment 4 pi a^3 E. The error is of fourth order in a over a distance.
 Eigen::MatrixXd potentialsAtRest_ohm(const Eigen::Vector3d& block_mm,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& electrodes_mm, const FieldLaw& law,
                                      SphereModel model = SphereModel::Dipoles);
@@ -38,5 +38,7 @@ double contactResistance_ohm(const FieldLaw& law);
 /// The wires of a design at rest under a law of the field.
 TerminalNetwork networkAtRest(const SensorDesign& design, const FieldLaw& law,
                               SphereModel model = SphereModel::Dipoles);
+/// Resistances [ohm] of a design at rest by its own law, row-wires x column-wires.
+Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 } // namespace palp

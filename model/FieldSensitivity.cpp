@@ -17,7 +17,7 @@ Eigen::MatrixXd plusTranspose(const Eigen::MatrixXd& m) {
   return m + m.transpose();
 }
 
-/// Where d2 / dx_i dx_j stands in BoxGreen::Curvature::own.
+/// Index of d2 / dx_i dx_j in BoxGreen::Curvature::own.
 constexpr std::size_t kOwn[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
 } // namespace
@@ -35,12 +35,12 @@ FieldSensitivity::FieldSensitivity(SensorDesign design, const FieldLaw& law, Sph
       faces_(movingFaces(design_, fineness)) {
   const Eigen::MatrixXd& q = network_.currents();
   for (std::size_t i = 0; i < 3; ++i) gradient_[i] = green.slope[i] * q;
-  pull_ = gradient_;
+  totalGradient_ = gradient_;
   if (dipole_ > 0) {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
-        pull_[j] -= dipole_ * green.curvature.mixed[3 * i + j].transpose() * gradient_[i];
-    for (std::size_t i = 0; i < 6; ++i) bend_[i] = green.curvature.own[i] * q;
+        totalGradient_[j] -= dipole_ * green.curvature.mixed[3 * i + j].transpose() * gradient_[i];
+    for (std::size_t i = 0; i < 6; ++i) curvature_[i] = green.curvature.own[i] * q;
   }
   Eigen::Index points = 0, at = 0;
   for (const FaceGrid& face : faces_) points += face.count();
@@ -63,13 +63,13 @@ FieldSensitivity::FieldSensitivity(FieldSensitivity&&) noexcept = default;
 Eigen::MatrixXd FieldSensitivity::ofElectrodes(const Eigen::Matrix3Xd& motion_mm) const {
   const Eigen::MatrixXd& q = network_.currents();
   Eigen::MatrixXd z = Eigen::MatrixXd::Zero(q.rows(), q.cols());
-  for (std::size_t i = 0; i < 3; ++i) z += motion_mm.row(static_cast<Eigen::Index>(i)).asDiagonal() * pull_[i];
+  for (std::size_t i = 0; i < 3; ++i) z += motion_mm.row(static_cast<Eigen::Index>(i)).asDiagonal() * totalGradient_[i];
   Eigen::MatrixXd change = plusTranspose(q.transpose() * z);
   if (dipole_ == 0) return change;
   for (std::size_t i = 0; i < 3; ++i) {
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(q.rows(), q.cols());
     for (std::size_t j = 0; j < 3; ++j)
-      moved += motion_mm.row(static_cast<Eigen::Index>(j)).asDiagonal() * bend_[kOwn[i][j]];
+      moved += motion_mm.row(static_cast<Eigen::Index>(j)).asDiagonal() * curvature_[kOwn[i][j]];
     change -= dipole_ * plusTranspose(moved.transpose() * gradient_[i]);
   }
   return change;

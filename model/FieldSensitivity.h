@@ -64,8 +64,9 @@ private:
   TerminalNetwork network_;
   double dipole_;                           ///< 4 pi a^3, or 0
   std::array<Eigen::MatrixXd, 3> gradient_; ///< at each electrode, of all others and of its own images; a wire a column
-  std::array<Eigen::MatrixXd, 3> pull_;     ///< what multiplies an electrode's current as it is moved
-  std::array<Eigen::MatrixXd, 6> bend_;     ///< how that gradient changes under an electrode that moves in it
+  std::array<Eigen::MatrixXd, 3>
+      totalGradient_; ///< factor of an electrode's current as it is displaced: with the induced dipoles
+  std::array<Eigen::MatrixXd, 6> curvature_; ///< second derivatives at each electrode of the potential of all others
   std::vector<FaceGrid> faces_;
   Eigen::Matrix3Xd facePoints_mm_, faceNormals_;
 };

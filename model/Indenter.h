@@ -17,7 +17,7 @@ enum class IndenterShape {
   Sphere,
   Pin,       ///< upright round rod that ends in half a sphere
   Flat,      ///< upright round punch, its flat end rounded at the rim
-  CylinderX, ///< lies along x, across the whole block
+  CylinderX, ///< lies along x, across the complete block
   CylinderY, ///< lies along y
   Plane
 };
@@ -33,14 +33,14 @@ struct Press {
   bool operator==(const Press&) const = default;
 };
 
-/// Moves down by a depth from the first touch of the top face at rest, then sideways.
+/// Moves down by a depth from the first touch of the top face at rest, then tangentially.
 struct Motion {
   double depth_mm = 0.1;
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   bool operator==(const Motion&) const = default;
 };
 
-/// Of a load that presses first and goes sideways then: what of it has been taken when the press is complete.
+/// Load fraction at which normal loading is complete and tangential loading starts, for a load that has both.
 inline constexpr double pressShare = 2. / 3;
 
 /// A rigid body that presses on the top face, with Coulomb friction.
@@ -53,15 +53,15 @@ struct Indenter {
   std::variant<Press, Motion> control;
   bool operator==(const Indenter&) const = default;
 
-  /// The same at a fraction of its load. Straight down it grows in proportion; where it also goes sideways with
-  /// friction, it presses during the first two thirds and goes sideways during the last.
+  /// The indenter at a fraction of its load. A normal load grows in proportion; a tangential one with friction is
+  /// preceded by the normal one, which takes the first two thirds.
   [[nodiscard]] Indenter at(double loadFraction) const;
-  [[nodiscard]] bool hasTwoParts() const; ///< presses first, then goes sideways
+  [[nodiscard]] bool hasTwoParts() const; ///< normal, then tangential loading
   [[nodiscard]] const Press* press() const { return std::get_if<Press>(&control); }
   [[nodiscard]] const Motion* motion() const { return std::get_if<Motion>(&control); }
 };
 
-/// An indenter's surface beside a point x: signed distance g (positive outside), its gradient n (a unit vector out of
+/// An indenter's surface near a point x: signed distance g (positive outside), its gradient n (a unit vector out of
 /// the indenter) and its second derivative H.
 struct IndenterDistance {
   double gap_mm = 0;
@@ -82,7 +82,7 @@ std::string indenterShapes();
 std::string asCommand(const Indenter& indenter);
 
 /// Why the indenter cannot press on the design (off the body, a rim wider than the punch, friction below 0 or above 2,
-/// a pull, a force sideways that no friction holds, a number that is not finite); empty if it can.
+/// a pull, a tangential force above the friction limit, a number that is not finite); empty if it can.
 std::optional<std::string> whyInvalid(const Indenter& indenter, const SensorDesign& design);
 
 } // namespace palp

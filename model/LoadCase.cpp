@@ -28,7 +28,7 @@ std::optional<std::string> patchProblem(const PatchLoad& patch, const Eigen::Vec
   return forceProblem("patch", patch.force_N);
 }
 
-/// Whether two indenters are one body that is told something else, of the same kind.
+/// Whether two indenters are the same body under the same kind of control.
 bool sameBody(const Indenter& a, const Indenter& b) {
   Indenter other = b;
   other.control = a.control;

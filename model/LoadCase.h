@@ -42,8 +42,7 @@ struct LoadCase {
 std::optional<std::string> whyInvalid(const LoadCase& load, const SensorDesign& design);
 
 /// Why the loads cannot act one after another (none, one without indenters, one that cannot act, indenters that are not
-/// the first's in number, shape, size, place, friction and in what they are told, a force or a motion); empty if they
-/// can.
+/// the first's in number, shape, size, position, friction and control (force or displacement)); empty if they can.
 std::optional<std::string> whyInvalid(const std::vector<LoadCase>& path, const SensorDesign& design);
 
 } // namespace palp

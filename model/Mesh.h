@@ -24,7 +24,10 @@ struct Mesh {
   [[nodiscard]] int elementCount() const { return static_cast<int>(elements.cols()); }
 };
 
-/// Displacement unknowns: three a node above the fixed bottom face z = 0.
+/// Whether each node is on the clamped bottom face z = 0, to rounding.
+std::vector<bool> clampedNodes(const Mesh& mesh);
+
+/// Displacement unknowns: three per node that is not clamped.
 int freeUnknowns(const Mesh& mesh);
 
 /// "10-node tetrahedra" or "8-node hexahedra".

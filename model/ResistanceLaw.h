@@ -26,7 +26,7 @@ inline constexpr NamedEnum kReadouts("readout", std::array{std::pair{Readout::Fl
                                                            std::pair{Readout::RowsGrounded, "rows_grounded"},
                                                            std::pair{Readout::OthersAtHalf, "others_at_half"}});
 
-/// The conduction field of the whole block between small spherical electrodes, of which all of a wire have one
+/// The conduction field of the complete block between small spherical electrodes, of which all of a wire have one
 /// potential; the rubber's conductivity is the same in all directions, also where it is deformed.
 struct FieldLaw {
   double resistivity_ohm_mm = 2000;
@@ -37,7 +37,7 @@ struct FieldLaw {
   bool operator==(const FieldLaw&) const = default;
 };
 
-/// What turns the place of the electrodes into resistance.
+/// The law from the electrodes' positions to resistances.
 using ResistanceLaw = std::variant<PairsLaw, FieldLaw>;
 
 } // namespace palp

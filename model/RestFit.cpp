@@ -25,7 +25,7 @@ constexpr double kSettled = 1e-6; // last step, in ln of the numbers; far below 
 constexpr double kLongestStep = 0.5;
 constexpr double kUndetermined = 0.1; // deviation of ln radius
 constexpr int kNumbers = 3;           // ln radius, ln resistivity, contact's share of a sphere's own resistance
-constexpr int kFewestReadings = 10;   // so that the misfit says something
+constexpr int kFewestReadings = 10;   // so that the misfit is meaningful
 
 using Numbers = Eigen::Vector3d;
 
@@ -56,10 +56,10 @@ public:
 
   [[nodiscard]] Eigen::Index readings() const { return static_cast<Eigen::Index>(known_.size()); }
 
-  /// ln R of the sensor less ln R of the model; entries that are not finite where there is no such sensor. With the
-  /// derivatives of ln R by the numbers where they are asked for.
+  /// ln R of the sensor less ln R of the model; not finite where there is no such sensor. With the
+  /// derivatives of ln R by the numbers on request.
   Eigen::VectorXd left(const FieldLaw& law, const Numbers& x, Eigen::MatrixXd* slopes = nullptr) const {
-    stopIfAsked(stop_); // a tenth of a second at most from look to look
+    throwIfStopped(stop_); // a tenth of a second at most from look to look
     try {
       return leftOf(law, x, slopes);
     } catch (const DesignError&) { // no positive network has these numbers
@@ -115,7 +115,7 @@ Eigen::MatrixXd freeSlopes(const Eigen::MatrixXd& slopes, const Numbers& x, int 
 
 /// Least squares over the first `free` numbers from x on, by Gauss and Newton with steps that are halved until they
 /// help.
-Numbers settled(const RestModel& model, const FieldLaw& law, Numbers x, int free) {
+Numbers converged(const RestModel& model, const FieldLaw& law, Numbers x, int free) {
   const double contact = lawOf(x, law).contact_ohm_mm2;
   const auto moved = [&](Numbers to) {
     if (free < kNumbers) to(2) = contact * std::exp(-to(0) - to(1));
@@ -157,7 +157,7 @@ Numbers start(const RestModel& model, const FieldLaw& law) {
 RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
   const Numbers first = start(model, law);
   int free = kNumbers;
-  Numbers x = settled(model, law, first, free);
+  Numbers x = converged(model, law, first, free);
   RestFit fit;
   Eigen::MatrixXd slopes;
   Eigen::VectorXd left;
@@ -171,7 +171,7 @@ RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
   };
   judge();
   bool none = false;
-  if (!(covariance(0, 0) >= 0 && std::sqrt(covariance(0, 0)) <= kUndetermined)) { // also where it is no number
+  if (!(covariance(0, 0) >= 0 && std::sqrt(covariance(0, 0)) <= kUndetermined)) { // also where it is NaN
     fit.keptContact = "these readings do not distinguish it from the radius";
   } else if (x(2) < 0) {
     none = true;
@@ -181,7 +181,7 @@ RestFit fitted(const RestModel& model, const FieldLaw& law, double noise) {
     free = 2;
     Numbers kept = first;
     kept(2) = none ? 0 : law.contact_ohm_mm2 * std::exp(-first(0) - first(1));
-    x = settled(model, law, kept, free);
+    x = converged(model, law, kept, free);
     judge();
   } else {
     fit.correlation = covariance(0, 2) / std::sqrt(covariance(0, 0) * covariance(2, 2));
@@ -218,7 +218,7 @@ const FieldLaw& requireReadings(const SensorDesign& design, const Eigen::Ref<con
   return *law;
 }
 
-/// The wire whose readings are furthest from the fit on the mean, in words.
+/// Name of the wire whose readings are furthest from the fit on average.
 std::string worstWire(const Eigen::MatrixXd& left) {
   std::string worst;
   double furthest = 0;

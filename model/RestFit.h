@@ -19,21 +19,21 @@ struct RestFit {
   double resistivityDeviation_ohm_mm = 0;
   double contactDeviation_ohm_mm2 = 0; ///< 0: kept, see keptContact
   double correlation = 0;              ///< of ln radius with the contact's share, where both were fitted
-  std::string keptContact;             ///< why the contact was not fitted, in words; empty where it was
-  double misfit = 0;                   ///< rms of what is left of ln R
+  std::string keptContact;             ///< reason why the contact was not fitted; empty where it was
+  double misfit = 0;                   ///< rms residual of ln R
   Eigen::MatrixXd left;                ///< ln R of the sensor less that of the fit; NaN where there is no reading
   int readings = 0;
 };
 
-/// What is left of ln R (rms) above which a fit is none: positions known to 0.05 mm leave less.
+/// Residual of ln R (rms) above which a fit is rejected: positions accurate to 0.05 mm leave less.
 inline constexpr double kRestFits = 0.02;
 
 /// Fits electrode radius, resistivity and contact of a design under the field to R at rest, in closed form: Green's
-/// function of the box is found once, the three numbers enter P by its diagonal and the dipoles alone.
-/// `resistances_ohm` row-wires x column-wires, NaN where one is not known; `noise` of a reading, relative. The contact
-/// and the radius act alike but for the dipoles: where the readings cannot tell them apart, the contact is kept. Throws
-/// Error where the design has not the law of the field, a reading is no resistance, or fewer readings are there than
-/// are needed, and Cancelled.
+/// function of the box is computed once; the three numbers enter P by its diagonal and the dipoles alone.
+/// `resistances_ohm` row-wires x column-wires, NaN where one is unknown; `noise` of a reading, relative. The contact
+/// and the radius differ only in their dipoles: where the readings cannot distinguish them, the contact is kept. Throws
+/// Error where the design does not have the law of the field, a reading is not a resistance, or there are too few
+/// readings, and Cancelled.
 RestFit fitAtRest(const SensorDesign& design, const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm, double noise,
                   const std::stop_token& stop = {});
 

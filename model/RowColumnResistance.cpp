@@ -7,12 +7,12 @@ namespace palp {
 namespace {
 
 /// Conductivity 1/g(p) [mm/ohm] and its derivative by the pressure.
-struct Conductivity {
+struct PairConductivity {
   double value;
   double slope;
 };
 
-Conductivity conductivity(const SensorDesign& design, double pressure_MPa) {
+PairConductivity pairConductivity(const SensorDesign& design, double pressure_MPa) {
   const double atRest = 1 / std::get<PairsLaw>(design.resistance).rate_ohm_per_mm;
   if (!design.pressureLaw || !(pressure_MPa > 0)) return {atRest, 0};
   const auto [p0, n] = *design.pressureLaw;
@@ -47,7 +47,8 @@ Eigen::VectorXd rowResistances(const SensorDesign& design, const ElectrodeDispla
   for (int k = 0; k < columns; ++k) {
     double conductance = 0; // of the column-wire, 1/R_k
     for (int i = 0; i < electrodes; ++i) {
-      const Conductivity sigma = conductivity(design, displacements.upperPressure_MPa(rowWire * electrodes + i));
+      const PairConductivity sigma =
+          pairConductivity(design, displacements.upperPressure_MPa(rowWire * electrodes + i));
       double inverseDistances = 0;
       for (int j = 0; j < perColumn; ++j) {
         const Eigen::Vector3d distance = upper.col(i) - lower.col(k * perColumn + j);

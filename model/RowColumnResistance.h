@@ -31,7 +31,7 @@ struct RowResistanceJacobian {
   Eigen::MatrixXd pressure; ///< [ohm/MPa] column i: pressure at upper electrode i; 0 without a pressure law
 };
 
-/// Resistances [ohm] of one row-wire, one per column-wire, and their derivatives if asked for.
+/// Resistances [ohm] of one row-wire, one per column-wire, and their derivatives on request.
 Eigen::VectorXd rowResistances(const SensorDesign& design, const ElectrodeDisplacements& displacements, int rowWire,
                                RowResistanceJacobian* jacobian = nullptr);
 

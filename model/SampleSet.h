@@ -19,14 +19,14 @@ struct SampleOrigin {
   std::uint64_t seed = 0;
   std::string areas = "each"; ///< each, together, touches, or the number of one area
   int perArea = 0;            ///< samples on each area (`together` and `touches`: in total)
-  std::string mesh;           ///< in words: element, size, elements, nodes
+  std::string mesh;           ///< as text: element, size, elements, nodes
   double solverTolerance = 0; ///< relative, against full Newton
   bool surrogate = false;
-  double surrogateError = 0;           ///< relative error against full solves; 0 for full solves
-  std::size_t firstSample = 0;         ///< index of the first sample within the whole request; above 0 only in shards
+  double surrogateError = 0;   ///< relative error against full solves; 0 for full solves
+  std::size_t firstSample = 0; ///< index of the first sample within the complete request; above 0 only in shards
   std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
-  std::string touches{};               ///< what indenters were drawn from, in words; empty where areas are loaded
-  bool signals = false; ///< the readings are no resistances: any sign, and differences from rest in place of ratios
+  std::string touches{};               ///< distribution of the indenters, as text; empty where areas are loaded
+  bool signals = false; ///< the readings are not resistances: any sign, and differences from rest in place of ratios
   std::string madeBy{}; ///< program and instruction set, which decide the last digits; several by "; ". Empty: unknown
 
   /// Measured by another rig: `mesh` is kImportedFrom and the name of its table, and the fingerprint need not be of a
@@ -36,12 +36,12 @@ struct SampleOrigin {
 
 inline constexpr const char* kImportedFrom = "measured, from ";
 
-/// Rows of SampleSet::touches, and with a force below them of SampleSet::beside.
+/// Rows of SampleSet::touches, and with a force below them of SampleSet::secondTouch.
 enum TouchRow { kTouchShape, kTouchSize_mm, kTouchFriction, kTouchX_mm, kTouchY_mm, kTouchRows };
-inline constexpr int kBesideRows = kTouchRows + 3;
+inline constexpr int kSecondTouchRows = kTouchRows + 3;
 
-/// Labelled samples; one column per sample. What is not known of them has no rows: the displacements of a real board,
-/// the times and places of computed samples.
+/// Labelled samples; one column per sample. Unknown quantities have no rows: the displacements of a real board, the
+/// times and positions of computed samples.
 struct SampleSet {
   SampleOrigin origin;
   int rowWires = 0;
@@ -54,7 +54,8 @@ struct SampleSet {
   Eigen::MatrixXd touches;   ///< kTouchRows x samples where indenters press, by TouchRow; else no rows
   Eigen::MatrixXd places_mm; ///< 2 x samples where another rig measured them: x, y of the touch from the block's corner
   Eigen::MatrixXd forces_N;  ///< 3 x samples; `together`: (3 areas) x samples
-  Eigen::MatrixXd beside;    ///< kBesideRows x samples where two touches press at once: the other, and its force
+  Eigen::MatrixXd
+      secondTouch; ///< kSecondTouchRows x samples where two touches press together: the second, and its force
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
   Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c. With origin.signals: signals
 
@@ -66,10 +67,10 @@ struct SampleSet {
   [[nodiscard]] bool together() const { return forces_N.rows() != 3 || (size() > 0 && area(0) < 0); }
 };
 
-/// The matrices of a set with a column a sample, in the order of the columns of its file.
-inline constexpr std::array kSampleParts{&SampleSet::times_s,          &SampleSet::runs,           &SampleSet::touches,
-                                         &SampleSet::places_mm,        &SampleSet::forces_N,       &SampleSet::beside,
-                                         &SampleSet::displacements_mm, &SampleSet::resistances_ohm};
+/// The matrices of a set with a column per sample, in the order of the columns of its file.
+inline constexpr std::array kSampleParts{
+    &SampleSet::times_s,  &SampleSet::runs,        &SampleSet::touches,          &SampleSet::places_mm,
+    &SampleSet::forces_N, &SampleSet::secondTouch, &SampleSet::displacements_mm, &SampleSet::resistances_ohm};
 
 /// Why two sets cannot share one file (different design, seed, mesh or kind); empty if they can. The first sample of a
 /// shard does not count as a difference.

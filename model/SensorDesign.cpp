@@ -196,7 +196,8 @@ void checkResistance(Problems& problems, const SensorDesign& design, bool placed
   if (const auto* pairs = std::get_if<PairsLaw>(&design.resistance))
     return requirePositive(problems, "resistance.rate_ohm_per_mm", pairs->rate_ohm_per_mm, 1e12, " ohm/mm");
   const FieldLaw& law = *design.field();
-  // Below any metal's, a sphere's of a nanometre and a pascal numbers overflow, or are lost beside the wires'.
+  // Below a metal's resistivity, a sphere's radius of a nanometre and a pascal numbers overflow, or are lost next to
+  // the wires'.
   requireBetween(problems, "resistance.resistivity_ohm_mm", law.resistivity_ohm_mm, 1e-6, 1e12, " ohm mm");
   requireNotNegative(problems, "resistance.contact_ohm_mm2", law.contact_ohm_mm2, 1e12, " ohm mm2");
   requireNotNegative(problems, "resistance.wire_ohm", law.wire_ohm, 1e9, " ohm");

@@ -15,8 +15,8 @@ namespace palp {
 /// (lower layer).
 struct ElectrodeLayer {
   std::vector<double> wire_mm;               ///< one a wire: y of a row-wire, x of a column-wire
-  std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or a list a wire
-  std::vector<std::vector<double>> z_mm;     ///< depth: {{z}} for all, or a list (one value an electrode) a wire
+  std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or one per wire
+  std::vector<std::vector<double>> z_mm; ///< depth: {{z}} for all, or a list (one value per electrode) for each wire
 
   [[nodiscard]] int wires() const { return static_cast<int>(wire_mm.size()); }
   [[nodiscard]] int electrodesPerWire() const { return along_mm.empty() ? 0 : static_cast<int>(along_mm[0].size()); }
@@ -110,8 +110,7 @@ std::vector<std::string> designWarnings(const SensorDesign& design);
 /// Throws DesignError with the first fault, if there is one.
 void requireValid(const SensorDesign& design);
 
-/// Throws DesignError where the design has the law of the field: what works by Eq. (1) alone must not be taken for it.
-/// `what` says what that is.
+/// Throws DesignError where the design has the law of the field, as `what` requires Eq. (1).
 void requirePairs(const SensorDesign& design, const std::string& what);
 
 } // namespace palp

@@ -16,7 +16,7 @@ struct NewtonStep {
   double relativeResidual = 0;
 };
 
-/// Below so many nodes that touch it an indenter's depth and contact are not to be trusted.
+/// Number of touching nodes below which an indenter's depth and contact are not reliable.
 constexpr int kFewTouchingNodes = 10;
 
 /// What an indenter does.
@@ -26,7 +26,7 @@ struct IndenterState {
   int touchingNodes = 0;                                    ///< of the mesh; with few of them the rest is wrong
   double contactArea_mm2 = 0;                               ///< of the surface at rest that touches
   double contactRadius_mm = 0;                              ///< of a circle with as wide a spread of the pressure
-  double centrePressure_MPa = 0;                            ///< force an area at rest, around the deepest place
+  double centrePressure_MPa = 0;                            ///< force per area at rest, around the deepest point
   double slipShare = 0;                                     ///< of the contact area
 };
 
@@ -39,9 +39,8 @@ struct LoadIncrement {
   Eigen::Matrix3Xd contactTraction_MPa{}; ///< 3 x nodes, on the surface at rest; empty without indenters
 };
 
-/// Result of one nonlinear solve. If Newton's method could not go on: the last converged state, and why. A solve has
-/// also converged if its residual, below 1e-6, does not fall any further: it is down to rounding, and stopReason says
-/// so.
+/// Result of one nonlinear solve. If Newton's method failed: the last converged state, and the reason. A solve has also
+/// converged if its residual, below 1e-6, stagnates at round-off level, which stopReason reports.
 struct Solution {
   bool converged = false;
   bool cancelled = false;

@@ -38,7 +38,8 @@ public:
   [[nodiscard]] const Eigen::MatrixXd& currents() const { return currents_; }
   /// Y [1/ohm], wires x wires, symmetric with rows that sum to 0: currents into the wires at their potentials.
   [[nodiscard]] const Eigen::MatrixXd& conductances() const { return conductances_; }
-  /// W = (1 + r Y)^-1, wires x wires, of the wires in the block alone: what is left of terminal potentials there.
+  /// W = (1 + r Y)^-1, wires x wires, of the wires in the block alone: the share of terminal potentials that remains
+  /// there.
   [[nodiscard]] const Eigen::MatrixXd& inBlock() const { return inBlock_; }
   /// dY [1/ohm] = - W Q' dP Q W, from Q' dP Q (wires x wires).
   [[nodiscard]] Eigen::MatrixXd change(const Eigen::Ref<const Eigen::MatrixXd>& currentsTimesChange) const;

@@ -121,7 +121,7 @@ std::string gridInWords(const TouchRange& range) {
 std::string inWords(const TouchRange& range) {
   std::string words = bodyAndPlaces(range);
   if (range.grid[0] > 0) words += " grid " + gridInWords(range);
-  if (range.atOnce > 1) words += " at once " + std::to_string(range.atOnce);
+  if (range.atOnce > 1) words += " at once " + std::to_string(range.atOnce); // words: ok (in sample files)
   words += " press " + span(range.leastPress_N, range.mostPress_N);
   if (range.mostFriction > 0)
     words += " friction " + span(range.leastFriction, range.mostFriction) + " cone " + text(range.cone);
@@ -168,7 +168,7 @@ namespace {
 
 std::optional<std::string> whyNotAtOnce(const TouchRange& range) {
   const auto wrong = [&](const std::string& expected) {
-    return "at once: " + gotExpected(std::to_string(range.atOnce), expected);
+    return "at once: " + gotExpected(std::to_string(range.atOnce), expected); // words: ok (the option's name)
   };
   if (range.atOnce == 1) return {};
   if (range.atOnce != 2) return wrong("1 or 2 touches");

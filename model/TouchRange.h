@@ -18,22 +18,23 @@ struct TouchRange {
   double smallest_mm = 3, largest_mm = 6;                                              ///< radius; both 0 for a plane
   double rim_mm = 0;                                                                   ///< of a punch
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero(), high_mm = Eigen::Vector2d::Zero(); ///< rectangle of the place
-  std::array<int, 2> grid{0, 0}; ///< places in turn at the middles of so many cells along x and y; 0: anywhere
+  std::array<int, 2> grid{0,
+                          0}; ///< positions in turn at the middles of this number of cells along x and y; 0: anywhere
   double leastFriction = 0, mostFriction = 0;
   double leastPress_N = 0.5, mostPress_N = 6; ///< downwards
-  double cone = 0; ///< largest force sideways, as a share of friction times press; uniform over the disc
+  double cone = 0; ///< largest tangential force, as a share of friction times press; uniform over the disc
   int atOnce = 1;  ///< touches of one load: 1, or 2 that lie the sum of their radii or more apart, so that they fit
   bool operator==(const TouchRange&) const = default;
 };
 
-/// The whole top face less a tenth of its shorter side all round; presses from a twelfth of the design's force range
-/// up; sideways up to 0.7 of the limit where there is friction.
+/// The top face without a border of a tenth of its shorter side; presses from a twelfth of the design's force range up;
+/// tangential forces up to 0.7 of the friction limit.
 TouchRange touchesOf(const SensorDesign& design);
 
-/// Touch number `i`, from seed and number alone. `redrawn`: another one in its place, for the so many-th time.
+/// Touch number `i`, from seed and number alone. `redrawn`: number of the replacement that is drawn in its place.
 Indenter touchAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn = 0);
 
-/// All touches of load `i`: that one, and where two press at once the other, drawn likewise until it has room.
+/// All touches of load `i`: that one, and where two press together a second one, drawn likewise until it has room.
 std::vector<Indenter> touchesAt(const TouchRange& range, std::uint64_t seed, std::size_t i, int redrawn = 0);
 
 /// As the options of the command line that make it: "sphere:3..6@3,3,27,27 press 0.5..6 friction 0.3..0.8 cone 0.7".

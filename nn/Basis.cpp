@@ -22,9 +22,9 @@ double gaussianRate(double spread, SpreadConvention convention) {
 Eigen::MatrixXd squaredDistances(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                  const std::stop_token& stop) {
   Eigen::MatrixXd result(a.cols(), b.cols());
-  const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel wants it
+  const Eigen::MatrixXd rows = a.transpose(); // contiguous over the samples of a, as the kernel needs it
   for (Eigen::Index first = 0; first < rows.rows(); first += kCachedRows) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     for (Eigen::Index j = 0; j < b.cols(); ++j)
       kernels::squaredDistancesToPoint(&rows(first, 0), rows.rows(), std::min(kCachedRows, rows.rows() - first),
                                        rows.cols(), b.col(j).data(), &result(first, j));

@@ -70,7 +70,7 @@ FeatureScaler FeatureScaler::whitened(const Eigen::Ref<const Eigen::MatrixXd>& s
   const double least = std::max(kLeastOfNoise * relativeNoise, kLeastOfLargest * deviation(0));
   Eigen::Index kept = 0;
   while (kept < deviation.size() && deviation(kept) > least) ++kept;
-  if (kept == 0) kept = 1; // nothing stands above the noise: the strongest direction stays
+  if (kept == 0) kept = 1; // nothing exceeds the noise: keep the strongest direction
   const Eigen::VectorXd weight = deviation.head(kept).unaryExpr([&](double s) {
     const double sum = s * s + relativeNoise * relativeNoise;
     return sum > 0 ? s * std::pow(sum, -(1 + power) / 2) : 0.0;

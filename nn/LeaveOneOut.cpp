@@ -107,7 +107,7 @@ std::size_t indexOfBest(const std::vector<LeaveOneOutResult>& results) {
   return best;
 }
 
-/// The half-steps beside the best spread, then the other powers of whitening at that spread and beside it.
+/// The half-steps around the best spread, then the other powers of whitening at that spread and around it.
 void refineNoisy(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                  const RbfOptions& options, const RbfSystem& system, int copies, const std::vector<double>& ridges,
                  const std::stop_token& stop, SpreadChoice& choice) {

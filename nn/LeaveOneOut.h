@@ -14,7 +14,7 @@ namespace palp {
 struct LeaveOneOutResult {
   double spread = 0;
   double ridge = 0;          ///< that was used: one too small for double precision is raised
-  bool indefinite = false;   ///< at the ridge asked for, to rounding: the ridge was raised until it was not
+  bool indefinite = false;   ///< to rounding at the requested ridge, which was therefore raised
   Eigen::MatrixXd residuals; ///< outputs x samples: target minus what a network without the sample predicts
   Eigen::VectorXd rms;       ///< one per output
   double score = 0;          ///< root mean square over the outputs of rms / (targets' standard deviation)
@@ -35,7 +35,7 @@ struct SpreadChoice {
   LeaveOneOutResult overall;
   double whitening = 0;                   ///< Scaling::Whiten: the power
   std::vector<LeaveOneOutResult> grid;    ///< the scores that the choice is based on
-  std::vector<double> spreadOfEachOutput; ///< the best spread for each output by itself
+  std::vector<double> spreadOfEachOutput; ///< the best spread for each output alone
 };
 SpreadChoice chooseSpread(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                           const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,

@@ -4,7 +4,7 @@
 
 namespace palp {
 
-/// Data or options that no network can be made from; the text says what, which value and what is allowed.
+/// Data or options that no network can be made from; the text names the fault, the value and the expected range.
 struct NetworkError : Error {
   using Error::Error;
 };

@@ -11,7 +11,7 @@ Eigen::MatrixXd noisyCopies(const Eigen::Ref<const Eigen::MatrixXd>& samples, do
   RandomNumbers random(seed ^
                        0x6e6f697365ULL); // "noise": other numbers than those that choose centres with the same seed
   for (Eigen::Index i = 0; i < result.cols(); ++i) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     for (Eigen::Index d = 0; d < result.rows(); ++d) {
       const double value = samples(d, i / copies);
       result(d, i) = relative > 0 ? value * (1 + relative * random.normal()) : value;

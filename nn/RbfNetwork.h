@@ -8,7 +8,7 @@
 namespace palp {
 
 /// F(x) = W phi(|s(x) - c|) + T s(x) + b: Gaussians on centres c, a linear tail T and a bias b, on scaled inputs s(x).
-/// A plain value; RbfEvaluator is its fast twin for live use.
+/// A plain value; RbfEvaluator evaluates it fast for live use.
 struct RbfNetwork {
   FeatureScaler scaler;
   Eigen::MatrixXd centers; ///< scaled inputs x centres

@@ -62,7 +62,7 @@ RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::R
   const std::unique_ptr<RbfSystem> system = rbfSystem(samples, targets, chosen, options.noiseCopies, stop);
   std::optional<LeaveOneOutResult> left;
   if (!options.ridge) left = atBestRidge(*system, spread, stop);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
 
   RbfSolution solution = system->solve(spread, left ? left->ridge : *options.ridge, stop);
   RbfFit fit;

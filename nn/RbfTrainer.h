@@ -34,7 +34,7 @@ enum class CenterChoice { Samples, KMeans, Random };
 /// Those that choose among the samples; all of them is a number of centres, not a way to choose.
 inline constexpr NamedEnum kCenterChoices("choice of centres", std::array{std::pair{CenterChoice::KMeans, "kmeans"},
                                                                           std::pair{CenterChoice::Random, "random"}});
-/// Centres where nobody says how many.
+/// Default number of centres.
 inline constexpr int kMostCenters = 600;
 
 /// What is added to the Gaussians.
@@ -80,10 +80,10 @@ struct FitReport {
   double condition = 0; ///< estimate, of the system that was solved
   int rank = 0;
   double largestWeight = 0;
-  Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one per output; empty: not asked for
-  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not asked for
+  Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one per output; empty: not requested
+  Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not requested
   double seconds = 0;
-  std::vector<std::string> warnings; ///< whole sentences
+  std::vector<std::string> warnings; ///< complete sentences
 };
 
 struct RbfFit {

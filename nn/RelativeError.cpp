@@ -25,10 +25,10 @@ PredictionError predictionError(const Eigen::Ref<const Eigen::MatrixXd>& predict
   const Eigen::ArrayXXd difference = (predicted - truth).array().abs();
   const Eigen::ArrayXXd size = truth.array().abs();
   PredictionError error;
-  // 0 / 0 is no error: the force is 0 and 0 was predicted.
+  // 0 / 0 counts as 0: the force is 0 and 0 was predicted.
   error.eq13Percent = 100 * (difference == 0).select(0.0, difference / size).rowwise().mean();
   const Eigen::ArrayXd width = (range.array() > 0).select(range.array(), 1.0);
-  const double largest = range.maxCoeff(); // not of a width that stands in for a range of 0
+  const double largest = range.maxCoeff(); // not a width that replaces a range of 0
   error.floor = (largest > 0 ? largest : 1) / kFloorsInRange;
   error.eq13FlooredPercent = 100 * (difference / size.max(error.floor)).rowwise().mean();
   error.meanAbsolute = difference.rowwise().mean();

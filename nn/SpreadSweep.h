@@ -22,8 +22,8 @@ struct SweepInput {
   Eigen::VectorXd range;                    ///< of the targets, for the % of range
 };
 
-/// Trains at each spread and measures the error; rows in the order of `spreads`. `progress` gets the rows done. Asked
-/// to stop, it drops the row in work and returns those done.
+/// Trains at each spread and measures the error; rows in the order of `spreads`. `progress` gets the rows done. On
+/// a stop request the unfinished row is dropped and the others are returned.
 std::vector<SweepRow> sweepSpreads(const SweepInput& input, const std::vector<double>& spreads,
                                    const RbfOptions& options, const std::function<void(std::size_t)>& progress = {},
                                    const std::stop_token& stop = {});

@@ -14,29 +14,29 @@ namespace palp {
 
 namespace {
 
-constexpr std::size_t loadsACheck = 700;     // the first and one load in so many is measured against full Newton
-constexpr int surrogateChecks = 3;           // of surrogates, whose error their fits have measured, in all calls
-constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are checked against
+constexpr std::size_t loadsACheck = 700; // the first load and one in this many is compared with full Newton
+constexpr int surrogateChecks = 3;       // of surrogates, whose error their fits have already measured, over all calls
+constexpr double fullNewtonResidual = 1e-11; // of the solves that answers are compared with
 constexpr double fullContactResidual = 1e-9; // with indenters
-constexpr double largestError = 1e-3;        // against full Newton: more is no rounding, but another equilibrium
+constexpr double largestError = 1e-3; // difference from full Newton: a larger one is another equilibrium, not rounding
 
-/// How an answer was found.
-enum class Way { Surrogate, Iteration, FullNewton };
+/// How a load was solved.
+enum class Strategy { Surrogate, Iteration, FullNewton };
 
 } // namespace
 
 struct BatchSolver::State {
   HyperelasticProblem problem;
-  std::size_t firstNumber = 0;      ///< of this call's loads, where one is refused
-  std::vector<std::size_t> numbers; ///< or that of each
+  std::size_t firstNumber = 0;      ///< of this call's loads, in messages
+  std::vector<std::size_t> numbers; ///< number of each load instead, if any
   BatchOptions options;
   std::unique_ptr<BatchEngine> engine;
   std::vector<std::optional<AreaSurrogate>> surrogates;
   std::size_t fullSolves = 0, leftToNewton = 0;
-  std::vector<std::string> leftOut; ///< of this call
+  std::vector<std::string> failedLoads; ///< of this call
   std::optional<double> measuredError;
-  std::vector<std::string> doubts;
-  std::size_t loadsSeen = 0, checks; ///< in all calls
+  std::vector<std::string> nonUniqueLoads;
+  std::size_t loadsSeen = 0, checks; ///< over all calls
   int surrogatesChecked = 0;
 
   State(const HyperelasticProblem& p, BatchOptions o)
@@ -51,38 +51,38 @@ struct BatchSolver::State {
       if (const auto why = whyInvalid(loads[i], problem.design())) throw DesignError("load " + number(i) + ": " + *why);
   }
 
-  /// False: stopped.
+  /// Makes the engine. Returns false if cancelled.
   bool prepare(const std::stop_token& stop) {
     if (engine) return true;
     if (options.touched && canBeLast(problem.mesh(), *options.touched)) {
-      auto tangent = touchedTangent(problem.parts(), *options.touched, options.threads, stop);
+      auto tangent = touchedTangent(problem.block(), *options.touched, options.threads, stop);
       if (!tangent) return false;
       engine = std::make_unique<BatchEngine>(problem, std::move(*tangent), options.relativeTolerance, options.threads,
                                              *options.touched);
       return true;
     }
-    auto rest = problem.parts().initialTangent(options.threads, stop);
+    auto rest = problem.block().initialTangent(options.threads, stop);
     if (!rest || stop.stop_requested()) return false;
     engine = std::make_unique<BatchEngine>(problem, std::move(rest), options.relativeTolerance, options.threads,
                                            options.touched);
     return true;
   }
 
-  /// Full Newton for one load, with all threads. Empty: stopped. Without electrodes: left out.
+  /// Solves one load by full Newton with all threads. Returns nullopt if cancelled; no electrodes if skipped as failed.
   std::optional<ElectrodeDisplacements> fullNewton(const LoadCase& load, std::size_t index, const std::stop_token& stop,
                                                    const TakeState& take = {}) {
     NewtonOptions newton;
     newton.threads = options.threads;
     newton.relativeTolerance = load.indenters.empty() ? fullNewtonResidual : fullContactResidual;
-    if (engine) engine->rest(); // a tangent takes its place
+    if (engine) engine->releaseMemory(); // which the tangent needs
     newton.oneTangent = true;
     const Solution solution = problem.solve(load, newton, {.step = {}, .stop = stop});
     ++fullSolves;
     if (solution.cancelled) return {};
     if (!solution.converged) {
       const std::string why = number(index) + ": " + solution.stopReason;
-      if (!options.leaveOut) throw ConvergenceError("load " + why);
-      leftOut.push_back(why);
+      if (!options.skipFailed) throw ConvergenceError("load " + why);
+      failedLoads.push_back(why);
       return ElectrodeDisplacements{};
     }
     ElectrodeDisplacements moved = problem.electrodes(solution.state());
@@ -90,29 +90,31 @@ struct BatchSolver::State {
     return moved;
   }
 
-  /// Measures answers of this call, as many as are due and spread over it, against full Newton; false: stopped.
+  /// Compares answers of this call with full Newton: as many as are due, spread over the call. Returns false if
+  /// cancelled.
   bool check(std::span<const LoadCase> loads, const std::vector<BatchEngine::Answer>& answers,
-             const std::vector<Way>& ways, const std::stop_token& stop) {
+             const std::vector<Strategy>& strategies, const std::stop_token& stop) {
     loadsSeen += loads.size();
     const std::size_t due = (loadsSeen + loadsACheck - 1) / loadsACheck, count = due - std::min(due, checks);
     checks += count;
     for (std::size_t c = 0; c < count; ++c) {
       std::size_t i = (2 * c + 1) * loads.size() / (2 * count);
-      for (std::size_t k = 0; k < loads.size() && ways[i] == Way::FullNewton; ++k) i = (i + 1) % loads.size();
-      if (ways[i] == Way::FullNewton) continue;
-      if (ways[i] == Way::Surrogate && surrogatesChecked++ >= surrogateChecks) continue;
+      for (std::size_t k = 0; k < loads.size() && strategies[i] == Strategy::FullNewton; ++k)
+        i = (i + 1) % loads.size();
+      if (strategies[i] == Strategy::FullNewton) continue;
+      if (strategies[i] == Strategy::Surrogate && surrogatesChecked++ >= surrogateChecks) continue;
       const auto full = fullNewton(loads[i], i, stop);
       if (!full) return false;
-      if (full->upper_mm.size() == 0) { // the answer stays: which loads have one must not hang on which are checked
-        doubts.push_back("load " + leftOut.back() + ", though the batch found one");
-        leftOut.pop_back();
+      if (full->upper_mm.size() == 0) { // the answer stays: whether a load has one must not depend on which are checked
+        nonUniqueLoads.push_back("load " + failedLoads.back() + ", though the batch found one");
+        failedLoads.pop_back();
         continue;
       }
       const double error = relativeDifference(*answers[i], *full, problem.design());
       notice(error);
-      if (error > largestError && ways[i] == Way::Iteration)
-        doubts.push_back("load " + number(i) + ": full Newton's method finds another equilibrium, " +
-                         text(std::round(1000 * error) / 10) + " % away");
+      if (error > largestError && strategies[i] == Strategy::Iteration)
+        nonUniqueLoads.push_back("load " + number(i) + ": full Newton's method finds another equilibrium, " +
+                                 text(std::round(1000 * error) / 10) + " % away");
     }
     return true;
   }
@@ -123,7 +125,8 @@ struct BatchSolver::State {
                       const std::stop_token& stop);
 };
 
-/// Without a surrogate afterwards: the area has none, as one of the fit's loads has no solution. False: stopped.
+/// Fits the missing surrogates of these areas. An area remains without one where a load of its fit has no solution.
+/// Returns false if cancelled.
 bool BatchSolver::State::fitSurrogates(std::span<const int> areas, const std::stop_token& stop) {
   std::vector<int> open;
   for (const int area : areas)
@@ -137,7 +140,7 @@ bool BatchSolver::State::fitSurrogates(std::span<const int> areas, const std::st
   return true;
 }
 
-/// Answers the loads on one area within the force range; false: stopped.
+/// Evaluates the surrogates for loads on one area within the force range. Returns false if cancelled.
 bool BatchSolver::State::fromSurrogates(std::span<const LoadCase> loads, std::vector<BatchEngine::Answer>& answers,
                                         const std::stop_token& stop) {
   const SensorDesign& design = problem.design();
@@ -182,38 +185,38 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
                                                         const TakeState& take) {
   State& s = *state_;
   s.firstNumber = firstNumber;
-  s.leftOut.clear();
+  s.failedLoads.clear();
   s.requireLoads(loads);
   if (loads.empty() || !s.prepare(stop)) return {};
   std::vector<BatchEngine::Answer> answers(loads.size());
   if (s.options.surrogate && !take && !s.fromSurrogates(loads, answers, stop)) return {};
-  std::vector<Way> ways(loads.size(), Way::Surrogate);
-  std::vector<LoadCase> rest;
-  std::vector<std::size_t> restIndices;
+  std::vector<Strategy> strategies(loads.size(), Strategy::Surrogate);
+  std::vector<LoadCase> remaining;
+  std::vector<std::size_t> remainingIndices;
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!answers[i]) {
-      ways[i] = Way::Iteration;
-      rest.push_back(loads[i]);
-      restIndices.push_back(i);
+      strategies[i] = Strategy::Iteration;
+      remaining.push_back(loads[i]);
+      remainingIndices.push_back(i);
     }
-  std::size_t done = loads.size() - rest.size();
+  std::size_t done = loads.size() - remaining.size();
   const auto report = [&](std::size_t more) {
     done += more;
     if (progress) progress(done);
   };
   if (done > 0) report(0);
-  // With states all loads are in the rest, under their own numbers.
-  std::vector<BatchEngine::Answer> solved = s.engine->solve(rest, s.options.relativeTolerance, report, stop, take);
+  // With states all loads remain, under their own numbers.
+  std::vector<BatchEngine::Answer> solved = s.engine->solve(remaining, s.options.relativeTolerance, report, stop, take);
   if (stop.stop_requested()) return {};
-  for (std::size_t k = 0; k < rest.size(); ++k) answers[restIndices[k]] = std::move(solved[k]);
+  for (std::size_t k = 0; k < remaining.size(); ++k) answers[remainingIndices[k]] = std::move(solved[k]);
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!answers[i]) {
-      ways[i] = Way::FullNewton;
+      strategies[i] = Strategy::FullNewton;
       answers[i] = s.fullNewton(loads[i], i, stop, take);
       if (!answers[i]) return {};
       ++s.leftToNewton;
     }
-  if (!s.check(loads, answers, ways, stop)) return {};
+  if (!s.check(loads, answers, strategies, stop)) return {};
   std::vector<ElectrodeDisplacements> all;
   for (auto& answer : answers) all.push_back(std::move(*answer));
   return all;
@@ -231,16 +234,16 @@ double BatchSolver::surrogateError() const {
   return error;
 }
 
-void BatchSolver::rest() {
-  if (state_->engine) state_->engine->rest();
+void BatchSolver::releaseMemory() {
+  if (state_->engine) state_->engine->releaseMemory();
 }
 
 void BatchSolver::nameLoads(std::vector<std::size_t> numbers) {
   state_->numbers = std::move(numbers);
 }
 
-const std::vector<std::string>& BatchSolver::leftOut() const {
-  return state_->leftOut;
+const std::vector<std::string>& BatchSolver::failedLoads() const {
+  return state_->failedLoads;
 }
 
 std::size_t BatchSolver::solves() const {
@@ -254,8 +257,8 @@ std::optional<double> BatchSolver::measuredError() const {
   return state_->measuredError;
 }
 
-const std::vector<std::string>& BatchSolver::doubts() const {
-  return state_->doubts;
+const std::vector<std::string>& BatchSolver::nonUniqueLoads() const {
+  return state_->nonUniqueLoads;
 }
 
 } // namespace palp

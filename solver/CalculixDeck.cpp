@@ -15,7 +15,7 @@ void writeElements(const Mesh& mesh, const std::stop_token& stop, std::string& d
   deck += std::string("*ELEMENT, TYPE=") + (mesh.shape == ElementShape::Tetrahedron10 ? "C3D10" : "C3D8") +
           ", ELSET=BLOCK\n";
   for (int e = 0; e < mesh.elementCount(); ++e) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     deck += std::to_string(e + 1);
     for (Eigen::Index n = 0; n < mesh.elements.rows(); ++n) deck += ", " + std::to_string(mesh.elements(n, e) + 1);
     deck += "\n";
@@ -37,7 +37,7 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   const Eigen::VectorXd forces = nodalForces(mesh, design, load);
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
   for (int n = 0; n < mesh.nodeCount(); ++n) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     deck += std::to_string(n + 1) + ", " + deckNumber(mesh.nodes_mm(0, n)) + ", " + deckNumber(mesh.nodes_mm(1, n)) +
             ", " + deckNumber(mesh.nodes_mm(2, n)) + "\n";
   }

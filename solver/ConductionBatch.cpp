@@ -31,11 +31,7 @@ struct ConductionBatch::State {
 
   State(const HyperelasticProblem& problem, BatchSolver& b, const BatchOptions& o)
       : design(problem.design()), batch(b), options(o), field(problem),
-        logAtRest(NetworkReading(networkAtRest(design, *design.field()), design.field()->readout)
-                      .resistances_ohm()
-                      .array()
-                      .log()),
-        polynomials(std::size_t(design.areas.count())) {}
+        logAtRest(resistancesAtRest_ohm(design).array().log()), polynomials(std::size_t(design.areas.count())) {}
 
   /// Every load by its own state.
   Answers bySolves(std::span<const LoadCase> loads, const std::function<void(std::size_t)>& progress,

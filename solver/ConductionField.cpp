@@ -54,7 +54,7 @@ struct ConductionField::State {
     if (!correction) return {};
     const auto found = green.at(state, threads, stop);
     if (!found) return {};
-    if (!state.conductivity.uneven()) return potentials_ohm(*found, law) + *correction;
+    if (!state.conductivity.heterogeneous()) return potentials_ohm(*found, law) + *correction;
     const Eigen::VectorXd conductivities = green.conductivities(state);
     const Eigen::VectorXd inverse = conductivities.cwiseSqrt().cwiseInverse();
     // Without terms of p alone and of q alone, which would become visible.
@@ -127,8 +127,8 @@ std::optional<CurrentField> ConductionField::current(const LoadIncrement& state,
   const Eigen::Index nodes = state_->problem.mesh().nodeCount();
   CurrentField field{(rho * found->value.head(nodes)).array() + shift, -found->gradient.leftCols(nodes), {}, currents};
   Eigen::ArrayXd logarithms = Eigen::ArrayXd::Zero(nodes); // ln k
-  if (const Conductivity& k = places.conductivity; k.uneven())
-    logarithms = k.pressures_MPa.head(nodes).unaryExpr([&](double p) { return 2 * k.half(p); });
+  if (const FieldConductivity& k = places.conductivity; k.heterogeneous())
+    logarithms = k.pressures_MPa.head(nodes).unaryExpr([&](double p) { return 2 * k.halfLogConductivity(p); });
   field.currentDensity_A_per_mm2 *= logarithms.exp().matrix().asDiagonal();
   field.powerDensity_W_per_mm3 = rho * field.currentDensity_A_per_mm2.colwise().squaredNorm().transpose();
   field.powerDensity_W_per_mm3.array() *= (-logarithms).exp();

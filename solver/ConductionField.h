@@ -11,8 +11,8 @@
 
 namespace palp {
 
-/// The current's way while one row-wire and one column-wire are read, at the nodes of the solver's mesh, for 1 V
-/// between the two; inside an electrode's sphere its potential and no current.
+/// Current density and potential while one row-wire and one column-wire are read, at the nodes of the solver's mesh,
+/// for 1 V between the two; inside an electrode's sphere its potential and no current.
 struct CurrentField {
   Eigen::VectorXd potential_V;               ///< measured from the column-wire
   Eigen::Matrix3Xd currentDensity_A_per_mm2; ///< 3 x nodes
@@ -21,11 +21,12 @@ struct CurrentField {
 };
 
 /// Resistances of the deformed block under the law of the field: quadratic tetrahedra on the displaced nodes of the
-/// solver's mesh, the fields of the electrodes themselves and of their mirror images taken off in closed form. Lower
-/// electrodes go with the rubber or are held, as the design says. What the mesh gives at rest is replaced by the closed
-/// form (model/FieldAtRest.h), so that its errors cancel: P = P_box + P_mesh(state) - P_mesh(rest).
-/// Under a pressure law the pressure is found at the nodes (nodalPressures_MPa) and is quadratic between; P_box -
-/// P_mesh(rest), with what no current sees taken off, is divided by m_p m_q. Threads may share it.
+/// solver's mesh, with the fields of the electrodes and of their mirror images subtracted in closed form. Lower
+/// electrodes follow the rubber or are fixed, as the design prescribes. The mesh's result at rest is replaced by the
+/// closed form (model/FieldAtRest.h), so that its errors cancel: P = P_box + P_mesh(state) - P_mesh(rest). Under a
+/// pressure law the pressure is computed at the nodes (nodalPressures_MPa) and is quadratic between; P_box -
+/// P_mesh(rest), without the terms that have no effect for currents of zero sum, is divided by m_p m_q. Threads may
+/// share it.
 class ConductionField {
 public:
   /// Throws DesignError unless all resistances are above 0: a pressure law may vary the conductivity more than the mesh
@@ -44,7 +45,7 @@ public:
   [[nodiscard]] std::optional<TerminalNetwork> network(const LoadIncrement& state,
                                                        const ElectrodeDisplacements& electrodes, int threads = 0,
                                                        const std::stop_token& stop = {}) const;
-  /// The current's way in a state whose network is known, by any read-out. None: stopped.
+  /// Current density and potential in a state with this network, for any read-out. Returns nullopt if cancelled.
   [[nodiscard]] std::optional<CurrentField> current(const LoadIncrement& state, const TerminalNetwork& network,
                                                     Readout readout, int rowWire, int columnWire, int threads = 0,
                                                     const std::stop_token& stop = {}) const;

@@ -11,12 +11,11 @@
 
 namespace palp {
 
-/// The error that the mesh makes in the displacements of the upper electrodes, estimated: relative, over all electrodes
-/// (L2). On meshes graded by us it is the difference to the solution on a mesh 1.3 times coarser, times a measured
-/// factor; on others the difference to the default mesh. Its limits: within a factor of 3 of the error on every design
-/// and load that it was checked on (resources/docs/numerics/mesh-error.md); on meshes finer than the default rather too
-/// high; of a mapped mesh finer than the default it shows the default mesh's error; it knows nothing of the rubber's
-/// law.
+/// Estimate of the discretisation error in the displacements of the upper electrodes: relative, over all electrodes
+/// (L2). On graded meshes it is the difference from the solution on a mesh 1.3 times coarser, times a measured factor;
+/// on others the difference from the default mesh. Limits: within a factor of 3 of the error for every design and load
+/// that was checked (resources/docs/numerics/mesh-error.md); rather too high on meshes finer than the default; for a
+/// mapped mesh finer than the default it is the default mesh's error. The error of the rubber's law is not included.
 struct DiscretisationError {
   std::optional<double> relative; ///< none where the solve on the other mesh did not converge
   /// The same of d ln R over all readings under the law of the field, where the resistances were given: within a factor

@@ -15,14 +15,16 @@
 
 namespace palp {
 
+struct LinearisedBlock;
+
 /// Settings of Newton's method; the defaults serve every load of the paper.
 struct NewtonOptions {
   double relativeTolerance = 1e-9; ///< of the residual, against the load's norm
   int iterationsAStep = 20;
-  double smallestStep = 1e-3; ///< of the load fraction; it gives up rather than take a smaller one
+  double smallestStep = 1e-3; ///< of the load fraction; a smaller one ends the solve
   int threads = 0;            ///< 0: all cores; changes the time, never the result
-  /// Lets the tangent at rest go when one on the way takes its place: a third less memory at the peak, but the next
-  /// solve has to find it again. The same result.
+  /// Releases the tangent at rest when a later one replaces it: a third less peak memory, but the next solve has to
+  /// compute it again. The result is the same.
   bool oneTangent = false;
 };
 
@@ -45,7 +47,7 @@ public:
   HyperelasticProblem& operator=(const HyperelasticProblem&) = default;
 
   [[nodiscard]] const SensorDesign& design() const { return *design_; }
-  /// The same block under another law of the resistances, of which the rubber feels nothing: all else is shared.
+  /// The same block with another resistance law, which does not affect the rubber: all else is shared.
   [[nodiscard]] HyperelasticProblem withLawOf(const SensorDesign& design) const;
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] int dof() const;                 ///< free displacement unknowns after elimination
@@ -54,14 +56,14 @@ public:
   /// Equilibrium under the load from rest. Throws DesignError where the load cannot act (model/LoadCase.h).
   [[nodiscard]] Solution solve(const LoadCase& load, const NewtonOptions& options = {},
                                const NewtonObserver& observer = {}) const;
-  /// Equilibria under the loads of a path, each from where the one before has ended: friction remembers the way. One
-  /// solution a load, up to the first that is not reached. Throws DesignError where the path cannot be
+  /// Equilibria under the loads of a path, each from where the one before has ended: friction is path-dependent.
+  /// Returns one solution per load, up to the first that fails. Throws DesignError for an invalid path
   /// (model/LoadCase.h).
   [[nodiscard]] std::vector<Solution> solvePath(const std::vector<LoadCase>& path, const NewtonOptions& options = {},
                                                 const NewtonObserver& observer = {}) const;
 
-  /// The first solve begins with these two and keeps what they find; here for those who measure them alone.
-  /// The order of elimination.
+  /// The first solve starts with these two and keeps their results; public for measurements.
+  /// Finds the order of elimination.
   void findOrdering() const;
   /// The factorisation of the tangent at rest. Returns its size in bytes, 0 if stopped.
   [[nodiscard]] std::size_t findFactor(int threads, const std::stop_token& stop = {}) const;
@@ -73,12 +75,12 @@ public:
   [[nodiscard]] ElectrodeDisplacements electrodes(const LoadIncrement& state) const;
   [[nodiscard]] NodalFields fields(const LoadIncrement& state) const;
 
-  struct Parts; ///< what copies and BatchSolver share
-  [[nodiscard]] const Parts& parts() const { return *parts_; }
+  /// The discretised block with its tangent at rest, shared by copies and by BatchSolver (statics/LinearisedBlock.h).
+  [[nodiscard]] const LinearisedBlock& block() const { return *block_; }
 
 private:
-  std::shared_ptr<const Parts> parts_;
-  std::shared_ptr<const SensorDesign> design_; ///< with its law; all else as in the parts
+  std::shared_ptr<const LinearisedBlock> block_;
+  std::shared_ptr<const SensorDesign> design_; ///< with its law; all else as in the block
 };
 
 } // namespace palp

@@ -35,8 +35,9 @@ double independentResidual(const SensorDesign& design, const Mesh& mesh, const L
     }
     volume = std::max(volume, std::abs(swollen / size - pressure_MPa * design.material.compressibility_per_MPa()));
   }
+  const std::vector<bool> clamped = clampedNodes(mesh);
   for (int n = 0; n < mesh.nodeCount(); ++n)
-    if (mesh.nodes_mm(2, n) == 0) imbalance.segment<3>(Eigen::Index{3} * n).setZero(); // reactions
+    if (clamped[std::size_t(n)]) imbalance.segment<3>(Eigen::Index{3} * n).setZero(); // reactions
   const double scale = external.norm();
   return std::max(scale > 0 ? imbalance.norm() / scale : imbalance.norm(), volume);
 }

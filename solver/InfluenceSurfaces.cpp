@@ -6,8 +6,8 @@
 #include "solver/PointProbe.h"
 #include "solver/contact/ContactDisc.h"
 #include "solver/contact/ContactEstimate.h"
+#include "solver/statics/LinearisedBlock.h"
 #include "solver/statics/PointMotion.h"
-#include "solver/statics/ProblemParts.h"
 
 #include <algorithm>
 #include <array>
@@ -57,32 +57,32 @@ std::optional<InfluenceSurfaces> InfluenceSurfaces::find(const HyperelasticProbl
                                                          const LinearReadings& readings, int threads,
                                                          const std::stop_token& stop,
                                                          const std::function<void(std::size_t more)>& progress) {
-  const HyperelasticProblem::Parts& parts = problem.parts();
-  const PointProbe probe(parts.mesh, readings.points_mm);
-  const auto rest = parts.initialTangent(threads, stop);
+  const LinearisedBlock& linearised = problem.block();
+  const PointProbe probe(linearised.mesh, readings.points_mm);
+  const auto rest = linearised.initialTangent(threads, stop);
   if (!rest) return {};
   std::vector<HeldPoint> points;
-  for (const auto& holders : probe.holders())
-    points.push_back({holders.front().element, pointMotion(holders.front(), *parts.discretisation, *rest)});
+  for (const auto& hosts : probe.hosts())
+    points.push_back({hosts.front().element, pointMotion(hosts.front(), *linearised.discretisation, *rest)});
   InfluenceSurfaces found(problem);
-  const double top_mm = parts.design.block_mm.z();
+  const double top_mm = linearised.design.block_mm.z();
   std::vector<int> nodes;
-  found.topNode_.assign(static_cast<std::size_t>(parts.mesh.nodes_mm.cols()), -1);
-  for (Eigen::Index n = 0; n < parts.mesh.nodes_mm.cols(); ++n)
-    if (parts.mesh.nodes_mm(2, n) > (1 - 1e-9) * top_mm) {
+  found.topNode_.assign(static_cast<std::size_t>(linearised.mesh.nodes_mm.cols()), -1);
+  for (Eigen::Index n = 0; n < linearised.mesh.nodes_mm.cols(); ++n)
+    if (linearised.mesh.nodes_mm(2, n) > (1 - 1e-9) * top_mm) {
       found.topNode_[static_cast<std::size_t>(n)] = static_cast<int>(nodes.size());
       nodes.push_back(static_cast<int>(n));
     }
-  found.top_ = elementsWith(parts.mesh, found.topNode_);
+  found.top_ = elementsWith(linearised.mesh, found.topNode_);
   const Eigen::Index count = readings.gradient_per_mm.rows();
   ProgressRelay relay(progress);
   found.surfaces_.setZero(3 * count, static_cast<Eigen::Index>(nodes.size()));
-  const Discretisation& mesh = *parts.discretisation;
-  const Eigen::Index batches = (count + batchLanes - 1) / batchLanes;
+  const Discretisation& mesh = *linearised.discretisation;
+  const Eigen::Index batches = (count + batchColumns - 1) / batchColumns;
   forChunks(static_cast<int>(batches), 1, threads, [&](int batch, int) {
     if (stop.stop_requested()) return;
-    const Eigen::Index first = Eigen::Index(batch) * batchLanes,
-                       some = std::min<Eigen::Index>(batchLanes, count - first);
+    const Eigen::Index first = Eigen::Index(batch) * batchColumns,
+                       some = std::min<Eigen::Index>(batchColumns, count - first);
     LaneSides sides(mesh.dof());
     loadsOf(readings, first, some, points, mesh, sides.lanes(sides.right));
     rest->factor.solve(sides, stop);
@@ -113,12 +113,12 @@ Eigen::MatrixXd InfluenceSurfaces::influence(const Eigen::Ref<const Eigen::Matri
     own.clear();
     for (Eigen::Index c = 0; c < sums.cols(); ++c)
       if (sums(p, c) != 0) own.push_back(c);
-    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(p)].front();
-    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n) {
-      const int top = topNode_[static_cast<std::size_t>(top_.elements(n, holder.element))];
+    const PointProbe::Host& host = probe.hosts()[static_cast<std::size_t>(p)].front();
+    for (Eigen::Index n = 0; n < host.shapes.size(); ++n) {
+      const int top = topNode_[static_cast<std::size_t>(top_.elements(n, host.element))];
       if (top < 0) continue; // its shape function is 0 on the face
       shared[static_cast<std::size_t>(top)] = 1;
-      for (const Eigen::Index c : own) shares(top, c) += holder.shapes(n) * sums(p, c);
+      for (const Eigen::Index c : own) shares(top, c) += host.shapes(n) * sums(p, c);
     }
   }
   std::vector<int> used; // few nodes share in a sum: the others cost nothing
@@ -142,7 +142,7 @@ Eigen::MatrixXd InfluenceSurfaces::under(std::span<const Indenter> touches, int 
   forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
     Eigen::Matrix2Xd points(2, contactDiscPoints * (end - begin));
-    // Pressed by Hertz's pressure or that under a flat end, and sideways.
+    // Normal: Hertz's pressure or that under a flat end; and tangential.
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), 2 * (end - begin));
     for (int i = begin; i < end; ++i) {
       const Indenter& touch = touches[static_cast<std::size_t>(i)];
@@ -175,7 +175,7 @@ std::vector<TouchInfluence> InfluenceSurfaces::of(std::span<const Indenter> touc
   std::vector<TouchInfluence> result(touches.size());
   forChunks(static_cast<int>(touches.size()), kTouchesAtOnce, threads, [&](int begin, int end) {
     if (stop.stop_requested()) throw Cancelled();
-    constexpr Eigen::Index sumsEach = 6; // pressed at the five places, and sideways in the middle
+    constexpr Eigen::Index sumsEach = 6; // normal at the five positions, and tangential in the middle
     const Eigen::Index pointsEach = 5 * contactDiscPoints;
     Eigen::Matrix2Xd points(2, pointsEach * (end - begin));
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.cols(), sumsEach * (end - begin));

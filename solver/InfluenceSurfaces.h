@@ -22,17 +22,17 @@ struct LinearReadings {
 /// How readings follow a round indenter of one place and force, to first order.
 struct TouchInfluence {
   double radius_mm = 0;             ///< of the contact, as linear elasticity expects it
-  Eigen::MatrixX3d perNewton;       ///< readings x (Fx, Fy, Fz) [1/N]; sideways the indenter sticks
-  Eigen::MatrixX2d byPlace_per_Nmm; ///< readings x (x, y): change of the column of Fz by the place [1/(N mm)]
+  Eigen::MatrixX3d perNewton;       ///< readings x (Fx, Fy, Fz) [1/N]; tangentially the indenter sticks
+  Eigen::MatrixX2d byPlace_per_Nmm; ///< readings x (x, y): change of the column of Fz with the position [1/(N mm)]
 };
 
-/// Influence surfaces of readings: how each of them follows a force anywhere on the top face of the block, to first
-/// order at rest. By reciprocity (E. Betti, Teoria della elasticita, 1872, section 6) that is how the top face moves
-/// under the reading's gradient as a load: one right side a reading, however many places are asked for.
+/// Influence surfaces of readings: the change of each reading under a force anywhere on the top face of the block, to
+/// first order at rest. By reciprocity (E. Betti, Teoria della elasticita, 1872, section 6) it is the displacement of
+/// the top face under the reading's gradient as a load: one right-hand side per reading for any number of positions.
 class InfluenceSurfaces {
 public:
-  /// Empty: stopped. `threads` 0: all cores, the same bytes at any number. `progress` is told how many more readings
-  /// are done. Throws DesignError where a point lies outside the block.
+  /// Returns nullopt if cancelled. `threads` 0: all cores, the same bytes at any number. `progress` is called with the
+  /// number of further readings done. Throws DesignError where a point lies outside the block.
   static std::optional<InfluenceSurfaces> find(const HyperelasticProblem& problem, const LinearReadings& readings,
                                                int threads, const std::stop_token& stop = {},
                                                const std::function<void(std::size_t more)>& progress = {});
@@ -40,9 +40,9 @@ public:
   /// Of forces [N] at points (x, y) of the top face: readings x 3, one a point.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> at(const Eigen::Ref<const Eigen::Matrix2Xd>& points_mm) const;
 
-  /// Of spheres, pins and punches that press with a force: Hertz's pressure (a punch: that under a flat end) over the
-  /// contact, and sideways the traction that moves all of it alike, that under a flat end too (K. L. Johnson, Contact
-  /// Mechanics, 1985, sections 3.4, 3.7, 4.2). What would reach over the face presses at its edge.
+  /// For spheres, pins and punches under force control: Hertz's pressure (a punch: that under a flat end) over the
+  /// contact, and tangentially the traction that displaces it uniformly, which is that under a flat end too (K. L.
+  /// Johnson, Contact Mechanics, 1985, sections 3.4, 3.7, 4.2). Parts beyond the face act at its edge.
   [[nodiscard]] std::vector<TouchInfluence> of(std::span<const Indenter> touches, int threads,
                                                const std::stop_token& stop = {}) const;
 

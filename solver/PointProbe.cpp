@@ -16,15 +16,15 @@ namespace {
 
 constexpr double localTolerance = 1e-9; // of local coordinates: points on faces belong to both sides
 
-std::optional<PointProbe::Holder> tetHolder(const Mesh& mesh, int element, const TetGeometry& geometry,
-                                            const Eigen::Vector3d& p) {
+std::optional<PointProbe::Host> tetHolder(const Mesh& mesh, int element, const TetGeometry& geometry,
+                                          const Eigen::Vector3d& p) {
   Eigen::Vector4d l = geometry.gradients.transpose() * (p - mesh.nodes_mm.col(mesh.elements(0, element)));
   l(0) += 1;
   if (l.minCoeff() < -localTolerance) return {};
-  return PointProbe::Holder{element, tetShapes(l), tetBubble(l), l};
+  return PointProbe::Host{element, tetShapes(l), tetBubble(l), l};
 }
 
-std::optional<PointProbe::Holder> hexHolder(const Mesh& mesh, int element, const Eigen::Vector3d& p) {
+std::optional<PointProbe::Host> hexHolder(const Mesh& mesh, int element, const Eigen::Vector3d& p) {
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < 20; ++iteration) {
     const HexPointGeometry point = hexGeometry(mesh, element, reference);
@@ -40,8 +40,7 @@ std::optional<PointProbe::Holder> hexHolder(const Mesh& mesh, int element, const
     if (change.norm() < 1e-13) break;
   }
   if (reference.cwiseAbs().maxCoeff() > 1 + localTolerance) return {};
-  return PointProbe::Holder{element, hexGeometry(mesh, element, reference).shapes, 0,
-                            PointProbe::Holder::Weights::Ones(1)};
+  return PointProbe::Host{element, hexGeometry(mesh, element, reference).shapes, 0, PointProbe::Host::Weights::Ones(1)};
 }
 
 /// Finite points by cells of a grid over x and y, so that an element is compared only with those near it.
@@ -97,7 +96,7 @@ private:
 } // namespace
 
 PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
-    : elements_(mesh.elements), holders_(points_mm.cols()) {
+    : elements_(mesh.elements), hosts_(points_mm.cols()) {
   const bool tets = mesh.shape == ElementShape::Tetrahedron10;
   const int corners = tets ? 4 : 8;
   const double margin = 1e-9 * mesh.nodes_mm.maxCoeff();
@@ -115,33 +114,33 @@ PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
       const Eigen::Vector3d p = points_mm.col(i);
       if ((p.array() < low).any() || (p.array() > high).any()) return;
       if (tets && !geometry) geometry = tetGeometry(mesh, e);
-      if (auto holder = tets ? tetHolder(mesh, e, *geometry, p) : hexHolder(mesh, e, p))
-        holders_[i].push_back(std::move(*holder));
+      if (auto host = tets ? tetHolder(mesh, e, *geometry, p) : hexHolder(mesh, e, p))
+        hosts_[i].push_back(std::move(*host));
     });
   }
   for (Eigen::Index i = 0; i < points_mm.cols(); ++i)
-    if (holders_[i].empty())
+    if (hosts_[i].empty())
       throw DesignError("mesh: the point (" + text(points_mm(0, i)) + ", " + text(points_mm(1, i)) + ", " +
                         text(points_mm(2, i)) + ") mm lies outside the block");
 }
 
 Eigen::Matrix3Xd PointProbe::displacements_mm(const LoadIncrement& state) const {
-  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(holders_.size()));
-  for (std::size_t i = 0; i < holders_.size(); ++i) {
-    const Holder& holder = holders_[i].front();
-    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n)
-      u.col(i) += holder.shapes(n) * state.displacements_mm.col(elements_(n, holder.element));
-    if (holder.bubble != 0) u.col(i) += holder.bubble * state.elementUnknowns.col(holder.element).head<3>();
+  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(hosts_.size()));
+  for (std::size_t i = 0; i < hosts_.size(); ++i) {
+    const Host& host = hosts_[i].front();
+    for (Eigen::Index n = 0; n < host.shapes.size(); ++n)
+      u.col(i) += host.shapes(n) * state.displacements_mm.col(elements_(n, host.element));
+    if (host.bubble != 0) u.col(i) += host.bubble * state.elementUnknowns.col(host.element).head<3>();
   }
   return u;
 }
 
 Eigen::VectorXd PointProbe::pressures_MPa(const LoadIncrement& state) const {
-  Eigen::VectorXd p = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(holders_.size()));
-  for (std::size_t i = 0; i < holders_.size(); ++i) {
-    for (const Holder& holder : holders_[i])
-      p(i) -= state.elementUnknowns.col(holder.element).tail(holder.pressure.size()).dot(holder.pressure);
-    p(i) /= double(holders_[i].size());
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(hosts_.size()));
+  for (std::size_t i = 0; i < hosts_.size(); ++i) {
+    for (const Host& host : hosts_[i])
+      p(i) -= state.elementUnknowns.col(host.element).tail(host.pressure.size()).dot(host.pressure);
+    p(i) /= double(hosts_[i].size());
   }
   return p;
 }

@@ -23,7 +23,7 @@ public:
 
   /// An element that contains the point, and the weights of its nodes' and its own unknowns: the displacement is linear
   /// in them.
-  struct Holder {
+  struct Host {
     using Weights =
         Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 10, 1>; // at most 10, in the holder itself
     int element = 0;
@@ -32,11 +32,11 @@ public:
     Weights pressure;  ///< one per pressure unknown
   };
   /// The elements that contain each point.
-  [[nodiscard]] const std::vector<std::vector<Holder>>& holders() const { return holders_; }
+  [[nodiscard]] const std::vector<std::vector<Host>>& hosts() const { return hosts_; }
 
 private:
   Eigen::MatrixXi elements_;
-  std::vector<std::vector<Holder>> holders_;
+  std::vector<std::vector<Host>> hosts_;
 };
 
 } // namespace palp

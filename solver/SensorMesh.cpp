@@ -21,8 +21,8 @@ constexpr double kCellsAnywhere = 2.7, kCellsInPart = 2.1, kCellsToLearnFrom = 1
 /// Of cells and of layers at the top face, where a decoder under the field learns from touches: it takes what the mesh
 /// makes of one place and not of the next for noise.
 constexpr double kCellsOfField = 0.8, kLayersOfField = 0.5;
-constexpr double cellsAPart = 10;     // along each axis: about as many as lie beside them
-constexpr int mostPartsAlongAxis = 4; // what is found once for each part has to pay
+constexpr double cellsAPart = 10;     // along each axis: about as many as outside of them
+constexpr int mostPartsAlongAxis = 4; // what is computed once for each part has to pay
 constexpr double widerContact = 1.1;  // than expected: at the block's edges
 
 /// Touch in the middle of the range.
@@ -122,9 +122,9 @@ Rectangle touchedByTouches(const SensorDesign& design, const TouchRange& range, 
   Eigen::Vector2d half_mm = Eigen::Vector2d::Zero();
   for (const double radius_mm : {range.smallest_mm, range.largest_mm})
     half_mm = half_mm.cwiseMax(contactEstimate(middleOf(range, radius_mm, range.mostPress_N), design).half_mm);
-  const Eigen::Vector2d reach_mm =
+  const Eigen::Vector2d margin_mm =
       widerContact * half_mm + sizeFactor(design, options) * zoneOf(design, range, kCellsInPart).size_mm;
-  return {range.low_mm - reach_mm, range.high_mm + reach_mm};
+  return {range.low_mm - margin_mm, range.high_mm + margin_mm};
 }
 
 bool finerForField(const SensorDesign& design) {

@@ -56,9 +56,9 @@ MeshOptions meshToLearnFrom(const SensorDesign& design, const TouchRange& range,
 /// smaller still.
 MeshOptions meshForPart(const SensorDesign& design, const TouchRange& part, MeshOptions options);
 
-/// The range cut into parts by the place of the touch, along x first, each to have a mesh of its own: grid lines go
-/// through the whole block, so that one mesh as fine everywhere would have several times the unknowns. One part where
-/// that saves nothing. `cuts` gives their number along x and y.
+/// Cuts the range into parts by the touch's position, along x first, each with a mesh of its own: grid lines extend
+/// through the complete block, so that one mesh as fine everywhere would have several times the unknowns. One part
+/// where cutting saves nothing. `cuts` prescribes their number along x and y.
 std::vector<TouchRange> partsOfTouches(const SensorDesign& design, const TouchRange& range, const MeshOptions& options,
                                        std::array<int, 2>* cuts = nullptr);
 
@@ -77,8 +77,8 @@ void requireMeshable(const SensorDesign& design, const MeshOptions& options);
 /// does, and Cancelled.
 Mesh sensorMesh(const SensorDesign& design, const MeshOptions& options = {}, const std::stop_token& stop = {});
 
-/// Whether the mesh is finer at the free side faces and at the clamped one: under the law of the field, where it feels
-/// how lower electrodes follow the rubber or the pressure everywhere.
+/// Whether the mesh is finer at the free side faces and at the clamped one: under the law of the field, if it depends
+/// on lower electrodes that follow the rubber, or on the pressure everywhere.
 bool finerForField(const SensorDesign& design);
 /// Whether it is finer in the bulk too, and finer still at the clamped face: under a pressure law of the field. Designs
 /// that differ in their law alone have one mesh where both are the same.

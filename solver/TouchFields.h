@@ -4,9 +4,9 @@
 
 namespace palp {
 
-/// How the whole block moves under round indenters that press with a force, to first order at rest. What
-/// InfluenceSurfaces is for any touches of one set of readings, this is for any readings of one set of touches: seven
-/// right sides a touch, however many layouts of electrodes are read.
+/// Displacement of the complete block under round indenters with force control, to first order at rest.
+/// InfluenceSurfaces serves any touches for one set of readings, this class any readings for one set of touches: seven
+/// right-hand sides per touch for any number of electrode layouts.
 class TouchFields {
 public:
   /// Empty: stopped. `threads` 0: all cores, the same bytes at any number.

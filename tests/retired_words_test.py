@@ -1,9 +1,10 @@
 """tests/retired_words.py: finds a planted word in prose, and nothing in code or in links.
 
-Used by CTest: python3 retired_words_test.py
+Used by CTest: python3 retired_words_test.py (ROOT, as the other checks take it, is not needed)
 """
 
 import pathlib
+import sys
 import unittest
 
 from retired_words import PATTERNS, retired_in
@@ -47,4 +48,4 @@ There is no force. Three whole numbers. A stand-alone program. The mesh is a row
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

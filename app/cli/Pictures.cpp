@@ -27,7 +27,7 @@ std::vector<ReportPicture> drawPaperFigures(const SensorDesign& design, const Pr
   NewtonOptions options;
   options.threads = session.threads;
   touch.advance(Stage::Displacements, options, {{}, session.stop});
-  stopIfAsked(session.stop); // half a load makes no figure
+  throwIfStopped(session.stop); // half a load makes no figure
   session.stages.add(touch.stages());
   return session.stages.measure("render", [&] { return drawPaperFigures(result, touch, files, session.stop); });
 }

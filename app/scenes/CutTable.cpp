@@ -42,7 +42,7 @@ std::string cutCsv(const DeformationState& state, const DeformationOptions& opti
   addNodalArray(*grid, "u", u_mm);
   addNodalArray(*grid, "value",
                 Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   vtkNew<vtkPlane> plane;
   const Eigen::Vector3d origin = options.cut->at_mm * Eigen::Vector3d::Unit(options.cut->axis);
   plane->SetOrigin(origin.x(), origin.y(), origin.z());
@@ -51,7 +51,7 @@ std::string cutCsv(const DeformationState& state, const DeformationOptions& opti
   cutter->SetInputData(grid);
   cutter->SetCutFunction(plane);
   cutter->Update();
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   vtkPointData& found = *cutter->GetOutput()->GetPointData();
   std::string csv = "x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm," + quantityHead(options) + "\n";
   const vtkIdType count = cutter->GetOutput()->GetNumberOfPoints();

@@ -36,7 +36,7 @@ std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, con
   vtkNew<vtkUnstructuredGrid> grid;
   fillGrid(*grid, mesh, mesh.nodes_mm);
   for (const NodalArray& array : arrays) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     addNodalArray(*grid, array.name, array.values);
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -48,7 +48,7 @@ std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, con
   writer->SetDataModeToBinary();
   writer->WriteToOutputStringOn(); // VTK itself would not say why a file cannot be written, and would print besides
   const bool good = writer->Write() == 1;
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   if (!good) throw Error("VTK refuses to write the mesh");
   return writer->GetOutputString();
 }

@@ -53,8 +53,8 @@ OrderedJson toJson(const ForwardModel& model) {
   OrderedJson coefficients = OrderedJson::array();
   for (const Eigen::MatrixXd& matrix : model.coefficients) coefficients.push_back(toJson(matrix));
   return {{"degree", model.degree},
-          {"cause_offset", toJson(model.causeOffset)},
-          {"cause_factor", toJson(model.causeFactor)},
+          {"cause_offset", toJson(model.parameterOffset)},
+          {"cause_factor", toJson(model.parameterFactor)},
           {"deviation", toJson(model.deviation)},
           {"coefficients", coefficients}};
 }
@@ -118,13 +118,13 @@ ForwardModel readForwardModel(const JsonPlace& place) {
   ForwardModel model;
   model.degree = place.at("degree").integer();
   if (model.degree < 0 || model.degree > 6) place.at("degree").refuse("0 to 6");
-  model.causeOffset = readVector(place.at("cause_offset"));
-  model.causeFactor = readVector(place.at("cause_factor"));
+  model.parameterOffset = readVector(place.at("cause_offset"));
+  model.parameterFactor = readVector(place.at("cause_factor"));
   model.deviation = readVector(place.at("deviation"));
-  if (model.causes() < 1) place.at("cause_offset").refuse("one number or more");
+  if (model.parameters() < 1) place.at("cause_offset").refuse("one number or more");
   if (!(model.deviation.array() > 0).all()) place.at("deviation").refuse("numbers above 0");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one per parameter");
-  const Eigen::Index monomials = monomialCount(model.causes(), model.degree);
+  requireSize(place.at("cause_factor"), model.parameterFactor.size(), model.parameters(), "entries, one per parameter");
+  const Eigen::Index monomials = monomialCount(model.parameters(), model.degree);
   for (const JsonPlace& entry : place.at("coefficients").list()) {
     model.coefficients.push_back(readMatrix(entry));
     requireSize(entry, model.coefficients.back().rows(), model.measurements(), "rows, one per measurement");

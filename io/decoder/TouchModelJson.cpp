@@ -65,20 +65,20 @@ Eigen::MatrixXd readPacked(const JsonPlace& place, const SplineTable& table) {
 } // namespace
 
 OrderedJson toJson(const KernelForwardModel& model) {
-  OrderedJson json = {{"cause_offset", toJson(model.causeOffset)},
-                      {"cause_factor", toJson(model.causeFactor)},
-                      {"cause_deviation", toJson(model.causeDeviation)},
+  OrderedJson json = {{"cause_offset", toJson(model.parameterOffset)},
+                      {"cause_factor", toJson(model.parameterFactor)},
+                      {"cause_deviation", toJson(model.parameterDeviation)},
                       {"measurement_offset", toJson(model.measurementOffset)},
                       {"projection", toJson(model.projection)},
                       {"deviation", toJson(model.deviation)},
                       {"inflation", toJson(model.inflation)}};
-  if (model.leftByOne > 0) json["left_by_one"] = model.leftByOne;
+  if (model.residualLimit > 0) json["left_by_one"] = model.residualLimit;
   if (model.table.inputs() == 0) {
     json["network"] = toJson(model.network);
     return json;
   }
-  json["starts"] = toJson(model.starts);
-  json["strengths"] = model.strengths;
+  json["starts"] = toJson(model.initialGuesses);
+  json["strengths"] = model.amplitudes;
   json["table"] = toJson(model.table);
   return json;
 }
@@ -153,11 +153,12 @@ SplineTable readTable(const JsonPlace& place) {
 /// What a table needs beside it to be inverted.
 void readInversion(const JsonPlace& place, KernelForwardModel& model) {
   model.table = readTable(place.at("table"));
-  model.starts = readMatrix(place.at("starts"));
-  model.strengths = readIntegers(place.at("strengths"));
-  requireSize(place.at("starts"), model.starts.rows(), model.table.inputs(), "rows, one per input of the table");
-  if (model.starts.cols() < 1) place.at("starts").refuse("one column or more");
-  for (const int input : model.strengths)
+  model.initialGuesses = readMatrix(place.at("starts"));
+  model.amplitudes = readIntegers(place.at("strengths"));
+  requireSize(place.at("starts"), model.initialGuesses.rows(), model.table.inputs(),
+              "rows, one per input of the table");
+  if (model.initialGuesses.cols() < 1) place.at("starts").refuse("one column or more");
+  for (const int input : model.amplitudes)
     if (input < 0 || input >= model.table.inputs() || input == model.table.place[0] || input == model.table.place[1])
       place.at("strengths").refuse("inputs of the table other than positions");
 }
@@ -169,28 +170,29 @@ KernelForwardModel readKernelForwardModel(const JsonPlace& place) {
       {"cause_offset", "cause_factor", "cause_deviation", "measurement_offset", "projection", "deviation", "inflation"},
       {"left_by_one", "network", "table", "starts", "strengths"});
   KernelForwardModel model;
-  model.causeOffset = readVector(place.at("cause_offset"));
-  model.causeFactor = readVector(place.at("cause_factor"));
-  model.causeDeviation = readVector(place.at("cause_deviation"));
+  model.parameterOffset = readVector(place.at("cause_offset"));
+  model.parameterFactor = readVector(place.at("cause_factor"));
+  model.parameterDeviation = readVector(place.at("cause_deviation"));
   model.measurementOffset = readVector(place.at("measurement_offset"));
   model.projection = readMatrix(place.at("projection"));
   model.deviation = readVector(place.at("deviation"));
   model.inflation = readVector(place.at("inflation"));
-  requireSize(place.at("inflation"), model.inflation.size(), model.causes(), "entries, one per parameter");
-  requireSize(place.at("cause_factor"), model.causeFactor.size(), model.causes(), "entries, one per parameter");
-  requireSize(place.at("cause_deviation"), model.causeDeviation.size(), model.causes(), "entries, one per parameter");
-  for (Eigen::Index k = 0; k < model.causes(); ++k)
-    if (model.causeFactor(k) != 0 && !(model.causeFactor(k) > 0 && model.causeDeviation(k) > 0))
+  requireSize(place.at("inflation"), model.inflation.size(), model.parameters(), "entries, one per parameter");
+  requireSize(place.at("cause_factor"), model.parameterFactor.size(), model.parameters(), "entries, one per parameter");
+  requireSize(place.at("cause_deviation"), model.parameterDeviation.size(), model.parameters(),
+              "entries, one per parameter");
+  for (Eigen::Index k = 0; k < model.parameters(); ++k)
+    if (model.parameterFactor(k) != 0 && !(model.parameterFactor(k) > 0 && model.parameterDeviation(k) > 0))
       place.at("cause_factor")
           .refuse("numbers above 0, with a deviation above 0, or 0 for a parameter that does not vary");
-  const Eigen::Index varied = (model.causeFactor.array() != 0).count();
+  const Eigen::Index varied = (model.parameterFactor.array() != 0).count();
   requireSize(place.at("projection"), model.projection.cols(), model.measurements(), "columns, one per measurement");
   requireSize(place.at("projection"), model.projection.rows(), model.components(), "rows, one per component");
   if (model.components() < 1 || !(model.deviation.array() > 0).all())
     place.at("deviation").refuse("numbers above 0, one or more");
   if (place.has("left_by_one")) {
-    model.leftByOne = place.at("left_by_one").number();
-    if (!(model.leftByOne > 0)) place.at("left_by_one").refuse("a number above 0");
+    model.residualLimit = place.at("left_by_one").number();
+    if (!(model.residualLimit > 0)) place.at("left_by_one").refuse("a number above 0");
   }
   const std::string form = place.has("table") ? "table" : "network";
   if (place.has("table"))

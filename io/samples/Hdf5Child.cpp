@@ -151,7 +151,7 @@ void Hdf5Child::refuseAsEnded() const {
 void Hdf5Child::receive(void* to, std::size_t count) const {
   auto* bytes = static_cast<char*>(to);
   while (count > 0) {
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     pollfd ready{socket_, POLLIN, 0};
     if (::poll(&ready, 1, kLookEvery_ms) <= 0) continue;
     const ssize_t got = ::recv(socket_, bytes, count, 0);

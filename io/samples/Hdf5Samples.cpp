@@ -111,7 +111,7 @@ public:
     inParallel(std::min(threads, pieces.size()), 0, [&](std::size_t) {
       Scratch scratch;
       for (std::size_t p = taken++; p < pieces.size(); p = taken++) {
-        stopIfAsked(stop);
+        throwIfStopped(stop);
         const auto [f, row, rows] = pieces[p];
         readPiece(f, row, rows, set, first + row - next_, scratch);
         const auto values = fields_[f].values;
@@ -184,7 +184,7 @@ void writeHdf5Samples(const fs::path& path, const SampleRows& rows, const std::s
     file.addDataset(field.name, field.number, field.shape, static_cast<std::uint64_t>(chunk));
   for (const SampleArray& array : sampleArrays(rows.head)) file.setAttribute(array.name, "unit", array.unit);
   for (Eigen::Index first = 0; first < rows.count; first += kChunksAtOnce * chunk) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     SampleSet block = rows.block(first, std::min(kChunksAtOnce * chunk, rows.count - first));
     const Eigen::Index samples = block.size(), chunks = (samples + chunk - 1) / chunk;
     resizeSamples(block, chunks * chunk);

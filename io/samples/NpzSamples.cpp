@@ -54,7 +54,7 @@ public:
     count = std::min(count, size_ - next_);
     const Eigen::Index atOnce = samplesAtOnce(head_);
     for (Eigen::Index done = 0; done < count; done += atOnce) {
-      stopIfAsked(stop);
+      throwIfStopped(stop);
       const Eigen::Index part = std::min(atOnce, count - done), column = first + done;
       area_->read(std::span<std::int32_t>(set.area.data() + column, static_cast<std::size_t>(part)));
       for (const auto& [numbers, values] : arrays_) {
@@ -90,7 +90,7 @@ void writeNpzSamples(const fs::path& path, const SampleRows& rows, const std::st
   const Eigen::Index atOnce = samplesAtOnce(rows.head);
   const auto forBlocks = [&](const auto& work) {
     for (Eigen::Index first = 0; first < rows.count; first += atOnce) {
-      stopIfAsked(stop);
+      throwIfStopped(stop);
       work(rows.block(first, std::min(atOnce, rows.count - first)));
     }
     file.end();

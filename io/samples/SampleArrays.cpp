@@ -70,9 +70,9 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
          &SampleSet::touches});
   if (head.places_mm.rows() > 0) arrays.push_back({"places_mm", "mm", {2}, &SampleSet::places_mm});
   arrays.push_back({"forces_N", "N", areas, &SampleSet::forces_N});
-  if (head.beside.rows() > 0)
+  if (head.secondTouch.rows() > 0)
     arrays.push_back(
-        {"beside", "as touches, then the force N along x, y, z", {asSize(kBesideRows)}, &SampleSet::beside});
+        {"beside", "as touches, then the force N along x, y, z", {asSize(kSecondTouchRows)}, &SampleSet::secondTouch});
   if (head.displacements_mm.rows() > 0)
     arrays.push_back({"displacements_mm",
                       "mm",
@@ -174,7 +174,7 @@ void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eig
       refuse(i, "area: " +
                     gotExpected(std::to_string(set.area(i)), together ? "-1: by the head all areas are loaded together"
                                                                       : "0 to " + std::to_string(high)));
-  for (const auto part : {&SampleSet::touches, &SampleSet::beside})
+  for (const auto part : {&SampleSet::touches, &SampleSet::secondTouch})
     for (Eigen::Index i = first; (set.*part).rows() > 0 && i < first + count; ++i) {
       const double shape = (set.*part)(kTouchShape, i);
       if (!(shape >= 0 && shape < static_cast<double>(kIndenterShapes.all().size()) && shape == std::floor(shape)))

@@ -36,7 +36,7 @@ public:
   Eigen::Index read(SampleSet& set, Eigen::Index first, Eigen::Index count, const std::stop_token& stop) override {
     Eigen::Index done = 0;
     for (; done < count && lines_.next(line_); ++done) {
-      stopIfAsked(stop);
+      throwIfStopped(stop);
       readSampleLine(lines_, line_, set, first + done);
     }
     return done;

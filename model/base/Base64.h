@@ -10,7 +10,7 @@ namespace palp {
 
 /// Base64 (RFC 4648).
 std::string base64(std::span<const unsigned char> bytes);
-/// The way back; empty where the text is no base64.
+/// Decodes; nullopt where the text is not base64.
 std::optional<std::vector<unsigned char>> fromBase64(std::string_view text);
 
 } // namespace palp

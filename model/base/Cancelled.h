@@ -12,7 +12,7 @@ struct Cancelled : std::exception {
 };
 
 /// Throws Cancelled if a stop was requested.
-inline void stopIfAsked(const std::stop_token& stop) {
+inline void throwIfStopped(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Cancelled();
 }
 

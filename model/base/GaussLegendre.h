@@ -10,7 +10,7 @@ struct QuadratureRule {
   Eigen::ArrayXd weights;
 };
 
-/// Gauss's rule of so many points, exact for polynomials of degree 2 count - 1 (Abramowitz and Stegun, 25.4.29).
+/// Gauss's rule of `count` points, exact for polynomials of degree 2 count - 1 (Abramowitz and Stegun, 25.4.29).
 QuadratureRule gaussLegendre(int count);
 
 /// Gauss's rule on each of the intervals between edges (ascending), one after the other.

@@ -11,9 +11,9 @@
 
 namespace palp {
 
-/// The number of threads asked for; 0: all cores.
-inline int threadCount(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+/// The requested number of threads; 0: all cores.
+inline int threadCount(int requested) {
+  return requested > 0 ? requested : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 /// Calls work(begin, end) for chunks of 0 .. count - 1, each once, from at most `threads` threads (0: all cores), the
@@ -41,7 +41,7 @@ template <class Work> void forChunks(int count, int chunk, int threads, const Wo
     std::vector<std::jthread> others;
     try {
       for (int t = 1; t < workers; ++t) others.emplace_back(run);
-    } catch (const std::system_error&) { // the system has no more threads: those that are there do the work
+    } catch (const std::system_error&) { // the system has no more threads: the existing ones do the work
     }
     run();
   }

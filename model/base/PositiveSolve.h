@@ -7,8 +7,8 @@
 
 namespace palp {
 
-/// Cholesky's factor of a symmetric matrix, which must be positive definite and finite; none where it is not. Eigen
-/// itself goes on then, and what it solves is finite garbage.
+/// Cholesky factor of a symmetric matrix; nullopt where that is not positive definite or not finite, for which Eigen's
+/// own factorisation returns finite garbage.
 template <class Matrix>
 std::optional<Eigen::LLT<typename Matrix::PlainObject>> positiveFactor(const Eigen::MatrixBase<Matrix>& matrix) {
   Eigen::LLT<typename Matrix::PlainObject> factor(matrix);

@@ -7,8 +7,8 @@
 
 namespace palp {
 
-/// Hands counts of many threads to one callback, one call at a time and no lock held while it runs: who comes while
-/// another thread calls out leaves its count to that one and goes on working.
+/// Passes counts of many threads to one callback, one call at a time and without a lock during the call: a thread that
+/// comes while another one calls leaves its count to that one and continues its work.
 class ProgressRelay {
 public:
   explicit ProgressRelay(std::function<void(std::size_t)> callback) : callback_(std::move(callback)) {}

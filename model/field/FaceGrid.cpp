@@ -14,20 +14,21 @@ constexpr int kPointsAPanel = 4;
 constexpr double kWidth = 0.8;  ///< of a panel, over the depth of the electrode behind it
 constexpr double kGrowth = 0.5; ///< of a panel's width with the distance from an electrode
 
-/// How far each electrode is from a face, and where it stands along one axis of it.
-struct Feet {
+/// Projections of the electrodes onto a face: their depth below it, and their position along one axis of it.
+struct Projections {
   Eigen::ArrayXd along_mm;
   Eigen::ArrayXd depth_mm;
 };
 
-/// Edges of panels on [low, high], each as wide as the feet near it allow.
-void addPanels(std::vector<double>& edges, double low, double high, const Feet& feet, double fineness) {
+/// Edges of panels on [low, high], each as wide as the projections near it allow.
+void addPanels(std::vector<double>& edges, double low, double high, const Projections& projections, double fineness) {
   constexpr int kSteps = 400;
   std::vector<double> panels{0}; // their number up to each step
   const double step = (high - low) / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     const double s = low + (i + 0.5) * step;
-    const double width = (kWidth * feet.depth_mm + kGrowth * (feet.along_mm - s).abs()).minCoeff() / fineness;
+    const double width =
+        (kWidth * projections.depth_mm + kGrowth * (projections.along_mm - s).abs()).minCoeff() / fineness;
     panels.push_back(panels.back() + step / width);
   }
   const int count = std::max(1, static_cast<int>(std::ceil(panels.back())));
@@ -40,9 +41,9 @@ void addPanels(std::vector<double>& edges, double low, double high, const Feet& 
   edges.push_back(high);
 }
 
-QuadratureRule rule(double length, int parts, const Feet& feet, double fineness) {
+QuadratureRule rule(double length, int parts, const Projections& projections, double fineness) {
   std::vector<double> edges{0};
-  for (int i = 0; i < parts; ++i) addPanels(edges, length * i / parts, length * (i + 1) / parts, feet, fineness);
+  for (int i = 0; i < parts; ++i) addPanels(edges, length * i / parts, length * (i + 1) / parts, projections, fineness);
   return gaussOnPanels(Eigen::Map<const Eigen::ArrayXd>(edges.data(), static_cast<Eigen::Index>(edges.size())),
                        kPointsAPanel);
 }
@@ -71,11 +72,11 @@ std::vector<FaceGrid> movingFaces(const SensorDesign& design, double fineness) {
     face.at_mm = high ? design.block_mm(axis) : 0;
     face.first = axis == 0 ? 1 : 0;
     face.second = axis == 2 ? 1 : 2;
-    Feet feet{{}, (electrodes.row(axis).array() - face.at_mm).abs()};
-    face.nearest_mm = feet.depth_mm.minCoeff();
+    Projections projections{{}, (electrodes.row(axis).array() - face.at_mm).abs()};
+    face.nearest_mm = projections.depth_mm.minCoeff();
     for (const int along : {face.first, face.second}) {
-      feet.along_mm = electrodes.row(along);
-      QuadratureRule made = rule(design.block_mm(along), parts[along], feet, fineness);
+      projections.along_mm = electrodes.row(along);
+      QuadratureRule made = rule(design.block_mm(along), parts[along], projections, fineness);
       (along == face.first ? face.u_mm : face.v_mm) = std::move(made.points);
       (along == face.first ? face.uWeights : face.vWeights) = std::move(made.weights);
     }

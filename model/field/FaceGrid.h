@@ -12,7 +12,7 @@ namespace palp {
 struct FaceGrid {
   int axis = 2;              ///< normal to the face
   bool high = true;          ///< at the end of the block along it, or at its beginning
-  double at_mm = 0;          ///< where it stands
+  double at_mm = 0;          ///< position along its axis
   int first = 0, second = 1; ///< axes of u and v
   Eigen::ArrayXd u_mm, uWeights, v_mm, vWeights;
   double nearest_mm = 0; ///< distance of the nearest electrode

@@ -95,7 +95,7 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
   if (n == 0) return c;
   const double one = 1;
   for (Eigen::Index first = 0; first < a.rows(); first += kRowsAtOnce) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const int k = size(std::min(kRowsAtOnce, a.rows() - first));
     dsyrk_("L", "T", &n, &k, &one, a.data() + first, &lda, &one, c.data(), &ldc);
   }
@@ -286,9 +286,9 @@ ThinSvd thinSvd(Eigen::MatrixXd a) {
 
 ThinSvd svdOfGram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
   Eigen::MatrixXd squared = gram(a, stop);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const SymmetricEigen eigen = symmetricEigen(std::move(squared));
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const Eigen::Index all = eigen.values.size();
   Eigen::Index kept = 0;
   while (kept < std::min(all, a.rows()) && eigen.values(all - 1 - kept) > 1e-14 * eigen.values(all - 1)) ++kept;
@@ -298,7 +298,7 @@ ThinSvd svdOfGram(const Eigen::MatrixXd& a, const std::stop_token& stop) {
   const Eigen::MatrixXd columns = result.vTransposed.transpose() * result.values.cwiseInverse().asDiagonal();
   result.u.resize(a.rows(), kept);
   for (Eigen::Index first = 0; first < a.rows(); first += kRowsAtOnce) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::Index rows = std::min(kRowsAtOnce, a.rows() - first);
     result.u.middleRows(first, rows) = product(a.middleRows(first, rows), false, columns, false);
   }

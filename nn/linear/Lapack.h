@@ -27,7 +27,7 @@ Eigen::MatrixXd symmetricProduct(const Input& a, const Input& b);
 void subtractRankTwo(const Input& u, const Input& v, Eigen::Ref<Eigen::MatrixXd> c);
 
 /// Pivots of Cholesky's factorisation with diagonal pivoting (dpstrf) of a semidefinite matrix, of which the lower
-/// triangle is read and overwritten: as many as there are before what is left is rounding.
+/// triangle is read and overwritten: as many as there are above rounding.
 std::vector<int> semidefinitePivots(Eigen::MatrixXd& a);
 
 /// A P = Q R with column pivoting (dgeqp3).

@@ -2,8 +2,8 @@
 
 #include "model/base/Cancelled.h"
 #include "nn/NetworkError.h"
+#include "nn/baselines/RecursiveLeastSquares.h"
 #include "nn/linear/Lapack.h"
-#include "nn/rivals/RecursiveLeastSquares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ LinearSolution bySemidefiniteQr(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
                                 const std::stop_token& stop) {
   Eigen::MatrixXd columns = a;
   std::vector<int> order = lapack::semidefinitePivots(columns);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const std::size_t fixed = order.size();
   std::vector<bool> taken(static_cast<std::size_t>(a.cols()), false);
   for (const int i : order) taken[static_cast<std::size_t>(i)] = true;
@@ -81,13 +81,13 @@ struct Triangular {
   Eigen::MatrixXd right;
 };
 
-/// Block of rows after block of rows, so that it can be stopped; twice as fast as to pivot all rows at once.
+/// Block of rows after block of rows, so that it can be stopped; twice as fast as pivoting over all rows.
 Triangular triangular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const std::stop_token& stop) {
   const Eigen::Index columns = a.cols();
   Triangular result{Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, b.cols())};
   const Eigen::Index step = std::max<Eigen::Index>(1, 2 * columns);
   for (Eigen::Index first = 0; first < a.rows(); first += step) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::Index rows = std::min(step, a.rows() - first);
     Eigen::MatrixXd stacked(columns + rows, columns), right(columns + rows, b.cols());
     stacked << result.r, a.middleRows(first, rows);
@@ -125,7 +125,7 @@ double smallestRidge(double size) {
 
 LinearSolution solveSymmetric(Eigen::MatrixXd a, const Eigen::MatrixXd& b, LeastSquaresMethod method, double ridge,
                               double rcond, const std::stop_token& stop) {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   if (method == LeastSquaresMethod::Cholesky) {
     const double used = std::max(ridge, kCholeskyRidge);
     LinearSolution solution = byCholesky(a, b, used);
@@ -177,7 +177,7 @@ LinearSolution solveLeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd
   } else if (method == LeastSquaresMethod::Cholesky) {
     // The normal equations (a^T a + ridge I) x = a^T b.
     const Eigen::MatrixXd normal = lapack::gram(a, stop);
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const double largest = a.cols() == 0 ? 0 : normal.diagonal().sum();
     solution = byCholesky(normal, lapack::product(a, true, b, false),
                           std::max({ridge, kCholeskyRidge, smallestRidge(largest)}));

@@ -19,7 +19,8 @@ Eigen::MatrixXd leftOutErrors(const Eigen::MatrixXd& remainder, const Eigen::Mat
   for (Eigen::Index first = 0; first < remainder.rows(); first += copies) {
     const Eigen::MatrixXd group = l.middleRows(first, copies), tail = t.middleRows(first, copies);
     Eigen::MatrixXd kept = -group * group.transpose() - tail * tail.transpose();
-    // A sample that alone holds a direction cannot be left out: its error is then what is left, not a division by 0.
+    // A sample that alone determines a direction cannot be left out: its error is then its residual, not a division by
+    // 0.
     kept.diagonal().array() += 1 + 1e-14;
     // Its entries near 0 are differences of rounded numbers and may be of either sign: only the result is checked.
     const Eigen::MatrixXd found = kept.ldlt().solve(remainder.middleRows(first, copies));
@@ -41,7 +42,7 @@ RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Ind
   const Eigen::MatrixXd targets = y.transpose();
 
   const auto errorsAt = [&](double value) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr(
         [&](double s) { return s > rcond * largest ? s * s / (s * s + value * largest * largest) : 0.0; });
     const Eigen::MatrixXd remainder = centred - lapack::product(svd.u, false, filter.asDiagonal() * rotated, false);

@@ -25,7 +25,7 @@ struct RidgeFit {
   int rank = 0;
   Eigen::MatrixXd residuals; ///< leave-one-out errors, outputs x samples (of each sample's first copy)
 };
-/// `y` is rows x outputs, in groups of `copies` rows a sample. No ridge given: by leave-one-out over 1e-13..10 times
+/// `y` is rows x outputs, in groups of `copies` rows per sample. No ridge given: by leave-one-out over 1e-13..10 times
 /// the largest squared singular value.
 RidgeFit ridgeFit(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, Eigen::Index copies,
                   const std::optional<double>& ridge, const std::stop_token& stop = {}, double rcond = 1e-13);

@@ -215,7 +215,7 @@ PALP_INLINE void storeFour(double* to, Four value) {
   *reinterpret_cast<FourUnaligned*>(to) = value;
 }
 
-/// Eight rows at once: sums that do not wait for each other.
+/// Eight rows together, whose sums are independent of each other.
 template <class Number>
 PALP_INLINE void threeSumsOf(const Number* const* columns, std::size_t rows, const double* shares, double* results) {
   constexpr std::size_t count = kSplineColumns, sums = 3;

@@ -39,7 +39,7 @@ struct PackedNetwork {
 /// output[o] += sum_c weights[o][c] basis(|scaled - c|^2) for one sample; `basis` is scratch, one double a lane of the
 /// blocks.
 void addGaussians(const PackedNetwork& network, const double* scaled, double* basis, double* output);
-/// The same, to the bit, for eight samples at once: scaled[s * inputs + d], basis[s * blocks * lanes + c],
+/// The same, to the bit, for eight samples together: scaled[s * inputs + d], basis[s * blocks * lanes + c],
 /// output[s * outputs + o].
 void addGaussiansEight(const PackedNetwork& network, const double* scaled, double* basis, double* output);
 

@@ -44,7 +44,7 @@ std::vector<Eigen::MatrixXd> GroupRidge::errors(const std::vector<Fold>& folds, 
                                                 const std::stop_token& stop) const {
   std::vector<Eigen::MatrixXd> all(lambdas.size(), Eigen::MatrixXd::Zero(y_.rows(), y_.cols()));
   for (const Fold& fold : folds) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::MatrixXd out = a_(fold.leftOut, Eigen::all), judged = a_(fold.judged, Eigen::all);
     const Eigen::MatrixXd normal = normal_ - lapack::gram(out);
     const Eigen::MatrixXd right = right_ - out.transpose() * y_(fold.leftOut, Eigen::all);

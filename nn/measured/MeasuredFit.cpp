@@ -294,7 +294,7 @@ private:
     const FeatureScaler scaler = inputScaler(inputs, rows_.readings.cols());
     const Eigen::MatrixXd scaled = scaler.apply(inputs);
     for (std::size_t s = 0; s < spreads_.size(); ++s) {
-      stopIfAsked(stop_);
+      throwIfStopped(stop_);
       const Features features = featuresOf(scaled, spreads_[s], kCentersOfChoice, options_.seed);
       const auto errors = GroupRidge(features.at(scaled), few.targets).errors(folds, lambdas_, stop_);
       for (std::size_t l = 0; l < errors.size(); ++l)
@@ -340,7 +340,7 @@ private:
     Eigen::MatrixXd errors;
     std::optional<GroupRidge> system;
     for (const double factor : chosen.spread == 0 || options_.spread ? std::vector{1.0} : std::vector{0.7, 1.0, 1.4}) {
-      stopIfAsked(stop_);
+      throwIfStopped(stop_);
       Features tried =
           featuresOf(scaled, factor * chosen.spread, options_.centers.value_or(kCentersOfFit), options_.seed);
       GroupRidge fit(tried.at(scaled), many.targets);

@@ -46,13 +46,13 @@ BasisForm KernelSystem::form() const {
 }
 
 RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_token& stop) const {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const Eigen::MatrixXd phi = kernel(spread);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   // (Q2^T Phi Q2 + ridge I) z = Q2^T y
   const LinearSolution solved =
       solveSymmetric(space_.projectBothSides(phi), right_, options_.method, ridge, options_.rcond, stop);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const Eigen::MatrixXd weights = space_.embed(solved.x); // w = Q2 z, samples x outputs
   RbfSolution solution;
   solution.ridge = solved.ridge;
@@ -78,7 +78,7 @@ RbfSolution KernelSystem::solve(double spread, double ridge, const std::stop_tok
 
 std::vector<LeaveOneOutResult> KernelSystem::leaveOneOut(double spread, const std::vector<double>& ridges,
                                                          const std::stop_token& stop) const {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   if (ridges.size() == 1) return {byInverse(spread, ridges.front(), stop)};
   return byEigen(spread, ridges, stop);
 }
@@ -87,11 +87,11 @@ LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std
   const Eigen::Index unknowns = right_.rows();
   bool indefinite = false;
   for (;;) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     Eigen::MatrixXd phi = kernel(spread);
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     space_.projectInPlace(phi);
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     auto factor = phi.bottomRightCorner(unknowns, unknowns);
     ridge = std::max(ridge, smallestRidge(unknowns == 0 ? 0 : factor.diagonal().sum()));
     factor.diagonal().array() += ridge;
@@ -104,7 +104,7 @@ LeaveOneOutResult KernelSystem::byInverse(double spread, double ridge, const std
       continue;
     }
     // A = L L^T. With H = L^-1 Q2^T: w = H^T (L^-1 Q2^T y), and diag(Q2 A^-1 Q2^T) are the squares of H's columns.
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::MatrixXd right = lapack::solveLower(factor, right_, false);
     space_.solveProjectionInPlace(phi);
     const auto half = phi.bottomRows(unknowns);
@@ -119,9 +119,9 @@ std::vector<LeaveOneOutResult> KernelSystem::byEigen(double spread, const std::v
                                                      const std::stop_token& stop) const {
   Eigen::MatrixXd system = space_.projectBothSides(kernel(spread));
   const double least = smallestRidge(system.rows() == 0 ? 0 : system.diagonal().sum());
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const lapack::SymmetricEigen eigen = lapack::symmetricEigen(std::move(system));
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   // Q2^T Phi Q2 = V diag(l) V^T once, then for each ridge: w = U diag(1 / (l + ridge)) V^T Q2^T y, U = Q2 V, and the
   // diagonal of the inverse is that of U diag(1 / (l + ridge)) U^T.
   const Eigen::MatrixXd vectors = space_.embed(eigen.vectors);

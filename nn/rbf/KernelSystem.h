@@ -8,8 +8,8 @@ namespace palp {
 
 /// Interpolation with one centre a sample, as kriging (H. Wendland, Scattered Data Approximation, 2005, 8.5):
 ///   (Phi + ridge I) w + P c = y,  P^T w = 0,  Phi_ij = phi(|s(x_i) - s(x_j)|),  P = [s(x), 1].
-/// The ridge stands beside Phi, whose diagonal is 1. It is kriging's nugget; in least squares on the same centres it
-/// would multiply w^T Phi w. With the exact tail out of the way (TailSpace, P = Q1 R, w = Q2 z) what is solved is
+/// The ridge is added to the diagonal of Phi, which is 1. It is kriging's nugget; in least squares on the same centres
+/// it would multiply w^T Phi w. With the exact tail out of the way (TailSpace, P = Q1 R, w = Q2 z) what is solved is
 ///   (Q2^T Phi Q2 + ridge I) z = Q2^T y,  then  P c = y - Phi w.
 /// A penalised tail is a kernel of its own: Phi + tailVariance (X^T X + 1), and no P.
 class KernelSystem final : public RbfSystem {

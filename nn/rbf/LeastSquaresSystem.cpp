@@ -43,7 +43,7 @@ double LeastSquaresSystem::tailFactor() const {
 }
 
 Eigen::MatrixXd LeastSquaresSystem::system(double spread, const std::stop_token& stop) const {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   Eigen::MatrixXd phi = distances_;
   basisInPlace(phi, gaussianRate(spread, options_.convention));
   if (!tailIsUnknown_ || tail_ == Tail::None) return space_.project(phi);
@@ -86,14 +86,14 @@ std::vector<LeaveOneOutResult> LeastSquaresSystem::leaveOneOut(double spread, co
   const lapack::ThinSvd svd =
       copies_ > 1 ? lapack::svdOfGram(system(spread, stop), stop) : lapack::thinSvd(system(spread, stop));
   // System = U diag(s) V^T: the hat matrix of the ridge is Q2 U diag(f) U^T Q2^T with f = s^2 / (s^2 + k ridge), and
-  // Q1 Q1^T of the exact tail beside it.
+  // Q1 Q1^T of the exact tail.
   const Eigen::MatrixXd left = space_.embed(svd.u);
   const Eigen::MatrixXd tailBasis = space_.tailBasis();
   const Eigen::MatrixXd rotated = lapack::product(svd.u, true, right_, false);
   const Eigen::MatrixXd whole = space_.embed(right_);
   std::vector<LeaveOneOutResult> results;
   for (const double ridge : ridges) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const Eigen::VectorXd filter = svd.values.unaryExpr([&](double s) {
       const double scaledRidge = ridge * static_cast<double>(copies_);
       return s > options_.rcond * svd.values(0) ? s * s / (s * s + scaledRidge) : 0.0;

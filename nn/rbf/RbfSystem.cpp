@@ -54,7 +54,7 @@ void requireUsable(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen
 std::unique_ptr<RbfSystem> rbfSystem(const Eigen::Ref<const Eigen::MatrixXd>& samples,
                                      const Eigen::Ref<const Eigen::MatrixXd>& targets, const RbfOptions& options,
                                      int noiseCopies, const std::stop_token& stop) {
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const bool oneASample = options.centers == CenterChoice::Samples ||
                           (options.centerCount >= samples.cols() && options.centers != CenterChoice::KMeans);
   if (oneASample && options.relativeInputNoise == 0 && options.method != LeastSquaresMethod::Recursive)

@@ -27,7 +27,7 @@ struct RbfSolution {
 };
 
 /// Samples, targets and everything about a network but spread and ridge. Immutable: spreads may be tried in parallel.
-/// All throw Cancelled soon after they are asked to stop.
+/// All throw Cancelled soon after a stop request.
 class RbfSystem {
 public:
   virtual ~RbfSystem() = default;

@@ -73,7 +73,7 @@ private:
   std::vector<int> nodeOfGroup_;
   std::vector<int> aroundStart_; ///< of each node in around_
   std::vector<int> around_;      ///< element * nodes + local node, elements ascending
-  std::vector<int> rowOffset_;   ///< [element][nodes][nodes]: where the row group stands in the column of the node
+  std::vector<int> rowOffset_;   ///< [element][nodes][nodes]: position of the row group in the column of the node
   std::shared_ptr<const SparsePattern> pattern_;
 };
 

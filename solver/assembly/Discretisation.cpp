@@ -5,10 +5,8 @@
 namespace palp {
 
 FixedComponents clampedBottom(const Mesh& mesh) {
-  const double tolerance = 1e-9 * mesh.nodes_mm.row(2).maxCoeff();
-  FixedComponents fixed(3 * std::size_t(mesh.nodeCount()));
-  for (int n = 0; n < mesh.nodeCount(); ++n)
-    for (int d = 0; d < 3; ++d) fixed[3 * n + d] = mesh.nodes_mm(2, n) <= tolerance;
+  FixedComponents fixed;
+  for (const bool clamped : clampedNodes(mesh)) fixed.insert(fixed.end(), 3, clamped);
   return fixed;
 }
 

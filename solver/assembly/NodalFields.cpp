@@ -141,7 +141,7 @@ private:
 Eigen::VectorXd fittedPressures(const Mesh& mesh, const LoadIncrement& state) {
   std::vector<QuadraticFit> fits(static_cast<std::size_t>(mesh.nodeCount())); // of corners
   const auto fit = [&](int node) -> QuadraticFit& { return fits[static_cast<std::size_t>(node)]; };
-  // `use(corner, place from it, volume, pressure)` for four points an element, exact to degree 2.
+  // `use(corner, place from it, volume, pressure)` for four points per element, exact to degree 2.
   const auto forPoints = [&](const auto& use) {
     constexpr double far = 0.58541019662497, near = 0.13819660112501;
     for (int e = 0; e < mesh.elementCount(); ++e) {

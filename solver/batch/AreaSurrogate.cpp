@@ -8,9 +8,9 @@ namespace palp {
 namespace {
 
 constexpr int lowestDegree = 2, highestDegree = 6;
-constexpr int keptForces = 24;             // from the fit, to measure its error
-constexpr double pointsATerm = 1.5;        // least squares of a polynomial on scattered points
-constexpr double surrogateFitShare = 0.01; // of the tolerance, for the solves that are fitted
+constexpr int keptForces = 24;             // held out of the fit to measure its error
+constexpr double pointsATerm = 1.5;        // for least squares on scattered points
+constexpr double surrogateFitShare = 0.01; // of the tolerance, for the fitted solves
 
 /// Displacements of the upper, then of the lower electrodes, then the pressures.
 Eigen::VectorXd numbers(const ElectrodeDisplacements& e) {
@@ -21,13 +21,13 @@ Eigen::VectorXd numbers(const ElectrodeDisplacements& e) {
 
 /// The fit of an area: its answers to the covering forces, in their order.
 struct AreaFit {
-  std::size_t index; ///< among the areas asked for
+  std::size_t index; ///< among the requested areas
   int area;
   std::vector<ElectrodeDisplacements> answers{};
-  bool without = false; ///< some have no answer
+  bool without = false; ///< some loads have no answer
 };
 
-/// Answers of all these to forces first .. ; false: stopped.
+/// Adds the answers of all these to forces first .. . Returns false if cancelled.
 bool addAnswers(BatchEngine& engine, std::vector<AreaFit>& fits, const std::vector<Eigen::Vector3d>& forces,
                 std::size_t first, double tolerance, const std::stop_token& stop) {
   std::vector<LoadCase> loads;

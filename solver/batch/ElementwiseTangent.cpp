@@ -7,7 +7,7 @@ namespace palp {
 
 namespace {
 
-/// Numbers in lanes [blocks][size][8], element by element in this order.
+/// Values stored as [blocks][size][8], element by element in this order.
 LaneVector byElement(const double* values, const std::vector<int>& elements, std::size_t size) {
   LaneVector out(elements.size() * size);
   for (std::size_t place = 0; place < elements.size(); ++place)
@@ -18,12 +18,12 @@ LaneVector byElement(const double* values, const std::vector<int>& elements, std
 
 } // namespace
 
-ElementwiseTangent::ElementwiseTangent(const HyperelasticProblem::Parts& parts, const InitialTangent& rest, Order order)
-    : mesh_(*parts.discretisation), rubber_(parts.assembler.rubber()), factor_(rest.factor),
+ElementwiseTangent::ElementwiseTangent(const LinearisedBlock& linearised, const InitialTangent& rest, Order order)
+    : mesh_(*linearised.discretisation), rubber_(linearised.assembler.rubber()), factor_(rest.factor),
       geometrySize_(mesh_.kernels().geometrySize),
       eliminationSize_(std::size_t(mesh_.unknowns()) * mesh_.elementDofs()),
       inverseSize_(std::size_t(mesh_.unknowns()) * (mesh_.unknowns() + 1) / 2),
-      factorRows_(3 * std::size_t(mesh_.nodes()), fillingRow()), places_(std::size_t(mesh_.elements())) {
+      factorRows_(3 * std::size_t(mesh_.nodes()), paddingRow()), places_(std::size_t(mesh_.elements())) {
   const std::vector<int>& unknowns = rest.factor.plan().tree().order;
   std::vector<int> rowOfUnknown(unknowns.size());
   for (std::size_t row = 0; row < unknowns.size(); ++row) rowOfUnknown[unknowns[row]] = static_cast<int>(row);
@@ -44,7 +44,7 @@ std::vector<int> ElementwiseTangent::elementsIn(Order order) const {
   std::vector<int> elements(std::size_t(mesh_.elements()));
   std::iota(elements.begin(), elements.end(), 0);
   if (order == Order::OfMesh) return elements;
-  std::vector<int> first(elements.size(), fillingRow()); // row of each element
+  std::vector<int> first(elements.size(), paddingRow()); // row of each element
   for (const int e : elements)
     for (int n = 0; n < mesh_.kernels().nodes; ++n)
       first[std::size_t(e)] = std::min(first[std::size_t(e)], factorRows_[3 * std::size_t(mesh_.node(e, n))]);

@@ -1,5 +1,7 @@
 #include "solver/batch/ForcePolynomial.h"
 
+#include "model/base/Monomials.h"
+
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -20,12 +22,9 @@ double radicalInverse(int index, int base) {
 } // namespace
 
 ForcePolynomial::ForcePolynomial(const ForceRange& range, int degree)
-    : scale_(range.low_N.cwiseAbs().cwiseMax(range.high_N.cwiseAbs())) {
+    : scale_(range.low_N.cwiseAbs().cwiseMax(range.high_N.cwiseAbs())), exponents_(monomialExponents(3, 1, degree)) {
   for (int d = 0; d < 3; ++d)
     if (scale_(d) == 0) scale_(d) = 1;
-  for (int n = 1; n <= degree; ++n)
-    for (int i = n; i >= 0; --i)
-      for (int j = n - i; j >= 0; --j) exponents_.push_back({i, j, n - i - j});
 }
 
 Eigen::VectorXd ForcePolynomial::monomials(const Eigen::Vector3d& force_N) const {
@@ -33,7 +32,7 @@ Eigen::VectorXd ForcePolynomial::monomials(const Eigen::Vector3d& force_N) const
   for (int t = 0; t < terms(); ++t) {
     values(t) = 1;
     for (int d = 0; d < 3; ++d)
-      for (int k = 0; k < exponents_[t][d]; ++k) values(t) *= force_N(d) / scale_(d);
+      for (int k = 0; k < exponents_(d, t); ++k) values(t) *= force_N(d) / scale_(d);
   }
   return values;
 }

@@ -2,9 +2,9 @@
 
 #include "model/RowColumnResistance.h"
 #include "solver/assembly/SurfaceTraction.h"
+#include "solver/batch/AndersonBatch.h"
 #include "solver/batch/ElementwiseTangent.h"
 #include "solver/batch/FactorPath.h"
-#include "solver/batch/LaneMixing.h"
 
 #include <array>
 #include <functional>
@@ -14,8 +14,8 @@
 
 namespace palp {
 
-/// A force on the nodes that share a traction.
-struct LaneForce {
+/// A force distributed over the nodes of a traction.
+struct TractionForce {
   const TractionShares* shares;
   Eigen::Vector3d force_N;
 };
@@ -26,28 +26,37 @@ struct NodeForce {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };
 
-/// Up to 32 loads, one a lane, iterated together by modified Newton with the tangent at rest:
+/// Up to 32 loads, one per column, iterated together by modified Newton with the tangent at rest:
 ///
 ///   r = f_ext - f_int(u, x), condensed;   K0 du = r;   dx = -Kxx^-1 r_x - W du;   u += du, x += dx,
 ///
-/// where x are the elements' own unknowns and W eliminates them (ElementKernels.h). The 32 lanes are four blocks of 8:
-/// the elements' kernels take one block at a time, the substitutions all 32, and the factor is read once for all of
-/// them:
+/// where x are the elements' internal unknowns and W eliminates them (ElementKernels.h). Why: the factor, the largest
+/// array, is read once per iteration for all loads, and the kernels use full SIMD registers. The 32 columns are four
+/// blocks of 8 SIMD lanes: the elements' kernels take one block at a time, the substitutions all 32:
 ///
-///   lane          0 .. 7    8 .. 15   16 .. 23  24 .. 31
-///   block         0         1         2         3           a block begins and ends for itself
-///   u, r          [3 nodes][32 lanes]                       for the substitutions
+///   column        0 .. 7    8 .. 15   16 .. 23  24 .. 31
+///   block         0         1         2         3           blocks start and finish independently
+///   u, r          [3 nodes][32 columns]                     for the substitutions
 ///   x, local      [elements][4 blocks][unknowns][8 lanes]   for the elements, in the order of ElementwiseTangent
 ///
-/// Lanes do not mix: what comes out of one depends on its own load alone, to the last byte.
+/// Columns are independent: the result of one depends on its own load alone, to the last byte.
+///
+/// States of a block, and the calls between them:
+///   empty -- reset --> at rest -- addForce, addPolynomials --> ready -- iterate ... --> stale -- updateInternal -->
+///   current
+/// After `iterate` the displacements are current, but the internal unknowns are stale until the next iteration or
+/// updateInternal; `finish` drops that update where nobody reads them. A column with contact forces starts with `mix`
+/// instead of `reset`, and starts its next load increment with continueWith.
+/// Where to read more: resources/docs/numerics/many-loads.md.
 class LoadBatch {
 public:
-  static constexpr int blocks = batchLanes / lanes;
+  static constexpr int blocks = batchColumns / lanes;
 
-  /// What the changes of an iteration are measured on beside the upper electrodes: all that the readings follow.
+  /// Quantities that the change of an iteration is measured on, in addition to the upper electrodes: those that the
+  /// readings depend on.
   struct Watched {
     bool lower = false;       ///< the lower electrodes, relative to the upper ones
-    double pressures_MPa = 0; ///< at the upper electrodes, relative to what they are and to this; 0: not
+    double pressures_MPa = 0; ///< at the upper electrodes, relative to their size and to this; 0: not measured
     bool block = false;       ///< all nodes
   };
 
@@ -55,73 +64,72 @@ public:
       : LoadBatch(model, upper, lower, Watched()) {}
   LoadBatch(const ElementwiseTangent& model, const PointProbe& upper, const PointProbe& lower, Watched watched);
 
-  /// A block's lanes at rest, without loads. `inSingle`: the elements' residuals are found in single precision, which
-  /// leaves an error of a few times 1e-7 of the answer.
+  /// Sets a block's columns to rest, without loads. `inSingle`: the elements' residuals are computed in single
+  /// precision, with a relative error of a few times 1e-7 in the answer.
   void reset(int block, bool inSingle = false);
-  void addForce(int lane, const LaneForce& force) { forces_[lane].push_back(force); }
-  /// A lane whose forces answer to the motion, at rest: its steps are mixed (LaneMixing.h). It begins for itself, in a
-  /// block of such lanes; the first of them begins in a block that was reset or has retired.
-  void mix(int lane, bool inSingle = false);
-  /// Such a lane goes on from where it is to another load. `straight`: which is as much further again in the same
-  /// direction, so that it starts as far from here as here is from where the load before began.
-  void goOn(int lane, bool straight);
-  /// The load of such a lane goes on in another one, of whose own nothing more will be asked.
+  void addForce(int column, const TractionForce& force) { forces_[column].push_back(force); }
+  /// Starts a load whose contact forces depend on the displacement, at rest; its iteration uses Anderson mixing
+  /// (AndersonBatch.h). Such columns start independently in a block of their own, which was reset or finished.
+  void mix(int column, bool inSingle = false);
+  /// Continues such a column from its current state with the next load increment. `extrapolate`: the increment equals
+  /// the previous one, so the state is moved by the previous increment's displacement once more.
+  void continueWith(int column, bool extrapolate);
+  /// Moves the load of such a column to another column, whose load is discarded.
   void move(int from, int to);
-  /// Its forces answer in another way from now on: its steps so far do not foretell the next.
-  void turn(int lane) { mixing_->restart(lane); }
-  /// Forces that answer to the motion, on nodes; in place of those given before.
-  void setNodeForces(int lane, std::vector<NodeForce> forces) { nodeForces_[lane] = std::move(forces); }
+  /// Discards the column's mixing history, because the contact mode changed.
+  void resetHistory(int column) { mixing_->restart(column); }
+  /// Sets the contact forces on nodes, in place of the previous ones.
+  void setNodeForces(int column, std::vector<NodeForce> forces) { nodeForces_[column] = std::move(forces); }
   /// Adds polynomials' values to the displacements [3 nodes][terms] and the elements' unknowns
-  /// [elements][unknowns][terms] of a block of 8 lanes; monomials [terms][8].
+  /// [elements][unknowns][terms] of a block; monomials [terms][8].
   void addPolynomials(int block, const std::vector<double>& displacements, const std::vector<double>& unknowns,
                       int terms, const double* monomials);
 
-  /// One iteration of the lanes that are active. `change` becomes the largest relative change of what is watched;
-  /// negative where elements turned inside out or the numbers are not finite any more.
-  /// Stopped on its way, it leaves the lanes unusable.
-  void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
+  /// Does one iteration of the active columns. `change` becomes the largest relative change of the watched quantities,
+  /// or negative where elements turned inside out or values are not finite. If cancelled, the columns are unusable.
+  void iterate(const std::array<bool, batchColumns>& active, std::array<double, batchColumns>& change,
                const std::stop_token& stop);
-  /// The same for loads that answer to the motion. `answer` is given each active lane and the motion [3 x nodes] of
-  /// these nodes to which the iteration would lead under the present forces, and gives the forces to go on with (false:
-  /// there are none, and the lane's change becomes negative). It is asked between the two ways of the substitution;
-  /// `path` is of the nodes' rows, and what is substituted along it comes on top.
-  using Answer = std::function<bool(int lane, const Eigen::Matrix3Xd& motion_mm)>;
-  void iterate(const std::array<bool, batchLanes>& active, std::array<double, batchLanes>& change,
+  /// The same with contact. `answer` is called between forward and backward sweep for each active column with the
+  /// predicted motion [3 x nodes] of `nodes` under the present forces; it sets the column's node forces, or returns
+  /// false if there is no contact equilibrium (the column's change becomes negative). `path` is the part of the factor
+  /// that the nodes' rows depend on; the change of the forces is substituted along it and added.
+  using Answer = std::function<bool(int column, const Eigen::Matrix3Xd& motion_mm)>;
+  void iterate(const std::array<bool, batchColumns>& active, std::array<double, batchColumns>& change,
                std::span<const int> nodes, const FactorPath& path, const Answer& answer, const std::stop_token& stop);
 
-  /// What the electrodes of a block's lanes feel.
+  /// Displacements and pressures at the electrodes, for each column of a block.
   [[nodiscard]] std::vector<ElectrodeDisplacements> electrodes(int block) const;
-  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane) const; ///< 3 x nodes
-  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int lane, std::span<const int> nodes) const;
-  [[nodiscard]] Eigen::MatrixXd unknownsOf(int lane) const;            ///< of a block that has caught up, x elements
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int column) const; ///< 3 x nodes
+  [[nodiscard]] Eigen::Matrix3Xd displacementsOf(int column, std::span<const int> nodes) const;
+  [[nodiscard]] Eigen::MatrixXd unknownsOf(int column) const;          ///< unknowns x elements; after updateInternal
   [[nodiscard]] const LaneVector& displacements() const { return u_; } ///< [3 nodes][32]
-  /// The elements' unknowns of a block follow its last iteration: most have no reader before the next, and none at all
-  /// where that was the last.
-  void catchUp(int block);
-  /// Nothing more will be asked of a block before it is reset.
-  void retire(int block) { behind_[block] = false; }
-  /// The element's own unknown k; of a block that has caught up.
-  [[nodiscard]] double unknown(int element, int k, int lane) const {
-    return x_[unknownIndex(model_.placeOf(element), k, lane)];
+  /// Updates the internal unknowns of a block after its last iteration. This is lazy: the next iteration does it for
+  /// most elements at no cost, and after the last one they often have no reader.
+  void updateInternal(int block);
+  /// Ends a block: it is not read before the next reset or mix.
+  void finish(int block) { stale_[block] = false; }
+  /// Internal unknown k of an element; after updateInternal.
+  [[nodiscard]] double unknown(int element, int k, int column) const {
+    return x_[unknownIndex(model_.placeOf(element), k, column)];
   }
 
 private:
   void evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop);
-  void scaleResiduals(const std::array<bool, batchLanes>& active);
+  void scaleResiduals(const std::array<bool, batchColumns>& active);
   enum class Direction { Forward, Backward };
   void substitute(Direction direction, FactorPath::Range supernodes, const std::stop_token& stop);
-  void substituteAlong(const FactorPath& path, const std::array<bool, batchLanes>& active, std::span<const int> nodes,
+  void substituteAlong(const FactorPath& path, const std::array<bool, batchColumns>& active, std::span<const int> nodes,
                        const Answer& answer, const std::stop_token& stop);
-  void answerMotion(const std::array<bool, batchLanes>& active, std::span<const int> nodes, const Answer& answer,
-                    std::array<std::vector<NodeForce>, batchLanes>& added);
-  void addToRight(int lane, const std::vector<NodeForce>& forces);
+  void answerMotion(const std::array<bool, batchColumns>& active, std::span<const int> nodes, const Answer& answer,
+                    std::array<std::vector<NodeForce>, batchColumns>& added);
+  void addToRight(int column, const std::vector<NodeForce>& forces);
   [[nodiscard]] bool isAtRest(int block) const;
-  void keepRest(int block, double* values, int count) const;
-  void startAnew();
-  void startAnew(int place, int block);
+  void zeroAtRest(int block, double* values, int count) const;
+  void beginLoads();
+  void beginLoads(int place, int block);
   void moveAlongDirections();
   void updateUnknowns(int place, int block);
-  /// The upper electrodes, and what else is watched, each with what its changes are relative to.
+  /// Values of a watched quantity and the quantity that its changes are relative to.
   struct WatchedValues {
     LaneVector values;
     std::size_t relativeTo = 0; ///< which of them
@@ -130,10 +138,10 @@ private:
   [[nodiscard]] std::vector<WatchedValues> watchedNow() const;
   [[nodiscard]] LaneVector displacementsAt(const PointProbe& probe) const; ///< [3 points][32]
   [[nodiscard]] LaneVector pressuresAt(const PointProbe& probe) const;     ///< [points][32], compression positive
-  [[nodiscard]] std::size_t unknownIndex(int place, int k, int lane) const {
-    return laneIndex(std::size_t(place) * batchLanes + lane, model_.mesh().unknowns(), k);
+  [[nodiscard]] std::size_t unknownIndex(int place, int k, int column) const {
+    return laneIndex(std::size_t(place) * batchColumns + column, model_.mesh().unknowns(), k);
   }
-  /// Of the own unknowns of the element at a place in x_ and local_, for the lanes of a block.
+  /// Start of the internal unknowns of the element at a place in x_ and local_, for the columns of a block.
   [[nodiscard]] std::size_t ownStart(int place, int block) const {
     return (std::size_t(place) * blocks + block) * model_.mesh().unknowns() * lanes;
   }
@@ -141,21 +149,21 @@ private:
   const ElementwiseTangent& model_;
   const PointProbe &upper_, &lower_;
   Watched watched_;
-  std::array<std::vector<LaneForce>, batchLanes> forces_;
-  std::array<std::vector<NodeForce>, batchLanes> nodeForces_;
-  LaneVector u_, r_;                        ///< [3 nodes][32]
-  LaneVector x_, local_;                    ///< [elements][blocks][unknowns][8]
-  std::unique_ptr<LaneMixing> mixing_;      ///< of the lanes that ask for it
-  FloatLanes uBefore_, xBefore_;            ///< of such lanes, where their load in work began; as u_ and x_
-  std::array<LaneStarts, blocks> starts_{}; ///< of the next iteration
-  std::array<bool, blocks> begins_{};       ///< one of its lanes does
+  std::array<std::vector<TractionForce>, batchColumns> forces_;
+  std::array<std::vector<NodeForce>, batchColumns> nodeForces_;
+  LaneVector u_, r_;                      ///< [3 nodes][32]
+  LaneVector x_, local_;                  ///< [elements][blocks][unknowns][8]
+  std::unique_ptr<AndersonBatch> mixing_; ///< of the columns started with `mix`
+  FloatLanes uBefore_, xBefore_;          ///< state of such columns at the start of the present increment; as u_ and x_
+  std::array<InitialGuess, blocks> guesses_{}; ///< of the next iteration
+  std::array<bool, blocks> begins_{};          ///< whether a column of the block starts an increment
   FloatLanes solution_;      ///< [rows of the factor + 1][32]; directions over scale_ after the substitutions
-  FloatLanes held_;          ///< of the solution along a path, in between
-  std::vector<char> probed_; ///< places of elements that an electrode looks at: their unknowns are always up to date
-  std::array<bool, batchLanes> atRest_{};
-  std::array<bool, blocks> behind_{}, inSingle_{};
-  std::array<double, batchLanes> scale_{};
-  std::array<double, batchLanes> smallestJ_{};
+  FloatLanes saved_;         ///< the solution's rows along a path, meanwhile
+  std::vector<char> probed_; ///< by place: elements that contain an electrode, whose unknowns are always current
+  std::array<bool, batchColumns> atRest_{};
+  std::array<bool, blocks> stale_{}, inSingle_{};
+  std::array<double, batchColumns> scale_{};
+  std::array<double, batchColumns> smallestJ_{};
 };
 
 } // namespace palp

@@ -16,7 +16,7 @@ std::string deckNumber(double value);
 /// next to it (surface to surface, a stiff linear pressure, Coulomb friction).
 struct ContactDeck {
   std::string model; ///< nodes, elements, surfaces, contact pairs: ends before the first step
-  std::string steps; ///< all steps: down by depths, then forces where they are given, then sideways
+  std::string steps; ///< all steps: down by depths, then forces where they are prescribed, then tangentially
 };
 
 /// `clamps` are the data lines of all boundary conditions of the block, `loads` those of the nodal forces of areas and

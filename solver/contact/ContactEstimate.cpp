@@ -88,7 +88,7 @@ ContactEstimate contactEstimate(const Indenter& indenter, const SensorDesign& de
   const Eigen::Vector2d halfFace = design.block_mm.head<2>() / 2;
   const double pressed = indenter.press() ? -indenter.press()->force_N.z() : 0;
   ContactEstimate estimate;
-  double stiffness = 0; // of what touches with all of its end at once
+  double stiffness = 0; // of an end that touches over its full area
   switch (indenter.shape) {
   case IndenterShape::Sphere:
   case IndenterShape::Pin:

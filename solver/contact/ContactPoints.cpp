@@ -12,7 +12,7 @@ namespace palp {
 
 namespace {
 
-constexpr int placesOnTheWay = 16; // of an indenter that goes sideways
+constexpr int placesOnTheWay = 16; // of a tangential motion
 
 double areaOfFace(const Mesh& mesh, Eigen::Index f, int a, int b, int c) {
   const auto at = [&](int n) { return Eigen::Vector3d(mesh.nodes_mm.col(mesh.topFaces(n, f))); };
@@ -49,6 +49,13 @@ Eigen::Vector3d tipAtRest_mm(const Indenter& indenter, const Mesh& mesh) {
   return {indenter.place_mm.x(), indenter.place_mm.y(), mesh.nodes_mm.row(2).maxCoeff()};
 }
 
+Eigen::Matrix3Xd tipsAtRest_mm(const std::vector<Indenter>& indenters, const Mesh& mesh) {
+  Eigen::Matrix3Xd tips_mm(3, static_cast<Eigen::Index>(indenters.size()));
+  for (std::size_t k = 0; k < indenters.size(); ++k)
+    tips_mm.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters[k], mesh);
+  return tips_mm;
+}
+
 std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& design,
                                           const std::vector<LoadCase>& path, double margin) {
   struct Tip {
@@ -66,9 +73,9 @@ std::vector<ContactPoint> touchablePoints(const Mesh& mesh, const SensorDesign& 
       const double depth = depthOfSearch(indenter, contactEstimate(indenter, design).depth_mm, margin);
       const int places = to == from ? 0 : placesOnTheWay;
       for (int k = 0; k <= places; ++k) {
-        const Eigen::Vector2d sideways = from + (to - from) * (places > 0 ? double(k) / places : 0);
+        const Eigen::Vector2d shift_mm = from + (to - from) * (places > 0 ? double(k) / places : 0);
         tips.push_back({&indenter, static_cast<int>(i),
-                        tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(sideways.x(), sideways.y(), -depth)});
+                        tipAtRest_mm(indenter, mesh) + Eigen::Vector3d(shift_mm.x(), shift_mm.y(), -depth)});
       }
       from = to;
     }

@@ -18,32 +18,28 @@ namespace {
 
 constexpr double stepGrowth = 2;
 constexpr double hopeless = 1e8;
-constexpr int halvings = 2;      // of one iteration's way, where elements turn inside out
-constexpr int mostShortened = 2; // iterations of a load step; then half of the load is tried
-// Where that small a residual does not fall any more, it is down to rounding (as in NewtonSolver).
+constexpr int halvings = 2;      // of one iteration's step length, where elements turn inside out
+constexpr int mostShortened = 2; // shortened iterations of a load step; then half of the load is tried
+// A residual below this that stagnates is at round-off level (as in NewtonSolver).
 constexpr double roundingBelow = 1e-6;
-// An iteration that has not found the forces after so many tangents finds them sooner from half of the load.
+// An iteration that has not found the forces after this number of tangents finds them sooner from half of the load.
 constexpr int tangentsToFindForces = 3;
 constexpr double forcesAreFoundBelow = 0.5;
 constexpr int stallsOfRounding = 3;
-// The solve ends where that many load steps have failed while less than that share of the remaining load was reached:
-// each takes two or three tangents, and there would be hundreds down to a thousandth of the load.
+// The solve ends after this number of failed load steps in which less than this share of the remaining load was
+// applied: each takes two or three tangents, and there would be hundreds down to a thousandth of the load.
 constexpr int mostFailedSteps = 5;
 constexpr double progressOfRest = 1. / 8;
 // A new tangent takes the time of some twenty iterations with the one in use.
 constexpr double keptIterations = 20;
-constexpr int iterationsOfNewTangent = 5; // of a load step; what more are taken is laid to the old one's charge
+constexpr int iterationsOfNewTangent = 5; // of a load step; further iterations are charged to the old one
 
 } // namespace
 
 ContactSolver::ContactSolver(const Assembler& assembler, const Mesh& mesh, const SensorDesign& design,
                              const std::vector<LoadCase>& path, NewtonOptions options, NewtonObserver observer)
     : assembler_(assembler), mesh_(mesh), design_(design), path_(path), indenters_(path.front().indenters),
-      options_(options), observer_(std::move(observer)) {
-  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
-  for (std::size_t k = 0; k < indenters_.size(); ++k)
-    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
-}
+      options_(options), observer_(std::move(observer)), tips_mm_(tipsAtRest_mm(indenters_, mesh)) {}
 
 void ContactSolver::choosePoints(double margin) {
   points_ = touchablePoints(mesh_, design_, path_, margin);
@@ -65,7 +61,7 @@ ContactIncrement ContactSolver::atRest() const {
   return {{0, assembler_.discretisation().atRest()}, untouched(points_.size(), indenters_.size())};
 }
 
-/// Forces of areas and discs go from those of the load before to this one's.
+/// Forces of areas and discs change from those of the previous load to this one's.
 void ContactSolver::beginLoad(std::size_t load) {
   now_ = load;
   expected_ = contactEstimates(path_[load].indenters, design_);
@@ -78,7 +74,7 @@ void ContactSolver::beginLoad(std::size_t load) {
 
 std::vector<ContactResult> ContactSolver::solve() {
   double margin = touchableMargin;
-  for (int attempt = 1;; ++attempt, margin *= widerMargin) {
+  for (int attempt = 1;; ++attempt, margin *= marginGrowth) {
     choosePoints(margin);
     std::vector<ContactResult> results;
     ContactIncrement start = atRest();
@@ -88,7 +84,7 @@ std::vector<ContactResult> ContactSolver::solve() {
       results.push_back(follow(start));
       if (!results.back().newton.converged) break;
       start = results.back().increments.back();
-      beyond = attempt < mostMargins && reachesBeyond({start.equilibrium.state, start.contact});
+      beyond = attempt < mostMargins && touchesBeyond({start.equilibrium.state, start.contact});
     }
     if (!beyond) return results;
   }
@@ -109,17 +105,17 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   }
   const double largest = largestContactStep(path_[now_].indenters, now_ == 0);
   double fraction = 0, size = largest, before = 0;
-  int failed = 0; // since the load fraction `before`
+  int failed = 0; // steps since the load fraction `before`
   while (fraction < 1) {
     const double target = fraction + size > 1 - 1e-9 ? 1 : fraction + size;
     const ContactIncrement& last = result.increments.back();
     State state;
-    const auto attempt = [&](Sideways sideways) {
+    const auto attempt = [&](TangentialControl control) {
       state = {last.equilibrium.state, last.contact};
-      Outcome outcome = step(fraction, target, state, sideways);
-      if (outcome == Outcome::Converged && sideways == Sideways::Held) { // now let go
+      Outcome outcome = step(fraction, target, state, control);
+      if (outcome == Outcome::Converged && control == TangentialControl::Displacement) { // now released
         tangentServes_ = true;
-        outcome = step(target, target, state, Sideways::AsLoaded);
+        outcome = step(target, target, state, TangentialControl::Force);
       }
       if (outcome == Outcome::Converged && slidAway(path_[now_].indenters, expected_, last.contact, state.contact))
         outcome = Outcome::NoContact;
@@ -127,11 +123,11 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
       return outcome;
     };
     const bool withOldTangent = tangentServes_;
-    Outcome outcome = attempt(Sideways::AsLoaded);
+    Outcome outcome = attempt(TangentialControl::Force);
     if (withOldTangent && outcome != Outcome::Converged && outcome != Outcome::Cancelled)
-      outcome = attempt(Sideways::AsLoaded);
-    // A node or two do not hold what is free to go aside while it comes down on them.
-    if (outcome == Outcome::NoContact && frictionHoldsSome()) outcome = attempt(Sideways::Held);
+      outcome = attempt(TangentialControl::Force);
+    // One or two nodes cannot hold a tangentially free indenter while it comes down on them.
+    if (outcome == Outcome::NoContact && anyForceWithFriction()) outcome = attempt(TangentialControl::Displacement);
     if (outcome == Outcome::Converged) {
       fraction = target;
       result.increments.push_back({{fraction, std::move(state.rubber)}, std::move(state.contact)});
@@ -163,7 +159,7 @@ ContactResult ContactSolver::follow(const ContactIncrement& start) {
   return result;
 }
 
-/// Why such a load is known not to converge, and what helps; empty where nothing is known.
+/// The known reason why such a load does not converge, and its remedy; empty if there is none.
 std::string ContactSolver::whyHard(const ContactState& reached) const {
   double finest_mm2 = std::numeric_limits<double>::infinity();
   for (const ContactPoint& point : points_) finest_mm2 = std::min(finest_mm2, point.area_mm2);
@@ -183,13 +179,12 @@ std::string ContactSolver::whyHard(const ContactState& reached) const {
   return {};
 }
 
-bool ContactSolver::frictionHoldsSome() const {
+bool ContactSolver::anyForceWithFriction() const {
   return std::any_of(path_[now_].indenters.begin(), path_[now_].indenters.end(),
                      [](const Indenter& indenter) { return indenter.press() && indenter.friction > 0; });
 }
 
-/// What an indenter is to do at a fraction of the load in work: of a later one of a path, between the one before and
-/// it.
+/// An indenter's control at a fraction of the present load, interpolated from that of the previous load of the path.
 Indenter ContactSolver::partOf(std::size_t indenter, double fraction) const {
   const Indenter& goal = path_[now_].indenters[indenter];
   if (now_ == 0) return goal.at(fraction);
@@ -246,8 +241,8 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
   setResidual(fraction, state);
   LaneVector matrix = assembler_.matrix(tangents_, options_.threads);
   tangents_.stiffness = {};
-  // The factor leads the iterations; what they end with is told by the residual, in double precision.
-  const Products products = assembler_.rubber().roundsWell() ? Products::Single : Products::Double;
+  // The factor only preconditions; the residual, in double precision, determines the result.
+  const UpdatePrecision products = assembler_.rubber().roundsWell() ? UpdatePrecision::Single : UpdatePrecision::Double;
   const auto outcome = cholesky_->factorise(std::move(matrix), options_.threads, observer_.stop, products);
   if (outcome == SparseCholesky::Outcome::Stopped) return Outcome::Cancelled;
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite) return Outcome::Indefinite;
@@ -259,28 +254,22 @@ ContactSolver::Outcome ContactSolver::newTangent(double fraction, const State& s
 /// Equilibrium and contact at the load fraction `to`. In an iteration, with K the tangent and R the residual without
 /// a change of the contact forces f:
 ///   w = K^-1 R;  f' = contact of the points at X + u + w with the compliance C = K^-1;  du = w + K^-1 (f' - f).
-ContactSolver::Outcome ContactSolver::step(double from, double to, State& state, Sideways sideways) {
+ContactSolver::Outcome ContactSolver::step(double from, double to, State& state, TangentialControl control) {
   const Discretisation& mesh = assembler_.discretisation();
   std::vector<ContactTarget> goal = targets(to);
-  if (sideways == Sideways::Held)
-    for (std::size_t k = 0; k < goal.size(); ++k)
-      for (const int c : {0, 1})
-        if (goal[k].free(c)) {
-          goal[k].free(c) = false;
-          goal[k].translation_mm(c) = state.contact.translations_mm(c, static_cast<Eigen::Index>(k));
-        }
+  if (control == TangentialControl::Displacement) (void)constrainTangentially(goal, state.contact);
   contact_->startStep(positions(state.rubber.displacements), state.contact);
   if (now_ == 0 && from == 0)
     for (std::size_t k = 0; k < goal.size(); ++k) {
       const Indenter part = partOf(k, to);
       state.contact.translations_mm.col(static_cast<Eigen::Index>(k)).z() = -contactEstimate(part, design_).depth_mm;
     }
-  if (tangentServes_) // the forces are those of the equilibrium that it begins with
+  if (tangentServes_) // the forces are those of the initial equilibrium
     setResidual(to, state);
   else if (const Outcome outcome = newTangent(to, state); outcome != Outcome::Converged)
     return outcome;
   record(to, 0);
-  StepMixing mixing; // of the iterations with one tangent; contact forces are found anew in each
+  StepMixing mixing; // of the iterations with one tangent; contact forces are solved in each
   double previous = 1;
   int stalled = 0, shortened = 0;
   for (int iteration = 1; iteration <= options_.iterationsAStep; ++iteration) {
@@ -301,7 +290,8 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state,
     if (stopped()) return Outcome::Cancelled;
     if (!answered) return Outcome::NoContact;
     Eigen::VectorXd du = mesh.withZeros(moved);
-    // The elements' own residuals were condensed without the contact's change, which acts on nodes alone.
+    // The elements' internal residuals were condensed without the change of the contact forces, which acts on nodes
+    // alone.
     LaneVector dx = assembler_.recover(tangents_, forces_, du, options_.threads);
     mixing.mix(du, dx);
     double length = 1;
@@ -335,25 +325,21 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state,
   return Outcome::TooManyIterations;
 }
 
-/// Whether the tangent in use ends the step soon, if it goes on to contract as in the iteration before.
+/// Whether the present tangent converges soon, if it contracts as in the last iteration.
 bool ContactSolver::tangentWillDo(double previous) const {
   if (!(relative_ < previous)) return relative_ < roundingBelow;
   return std::log(options_.relativeTolerance / relative_) >= keptIterations * std::log(relative_ / previous);
 }
 
-bool ContactSolver::reachesBeyond(const State& state) const {
-  const double reach_mm = mesh_.nodes_mm.row(2).maxCoeff() / beyondReachOfHeight;
-  std::vector<bool> known(static_cast<std::size_t>(mesh_.nodeCount()));
-  for (const ContactPoint& point : points_) known[static_cast<std::size_t>(point.node)] = true;
+bool ContactSolver::touchesBeyond(const State& state) const {
+  const double allowed_mm = mesh_.nodes_mm.row(2).maxCoeff() / penetrationOfHeight;
+  std::vector<bool> candidate(static_cast<std::size_t>(mesh_.nodeCount()));
+  for (const ContactPoint& point : points_) candidate[static_cast<std::size_t>(point.node)] = true;
   for (const ContactPoint& point : contactPoints(mesh_)) {
-    if (known[static_cast<std::size_t>(point.node)]) continue;
-    for (std::size_t k = 0; k < indenters_.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const Eigen::Vector3d place = mesh_.nodes_mm.col(point.node) +
-                                    state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node)) -
-                                    tips_mm_.col(column) - state.contact.translations_mm.col(column);
-      if (distance(indenters_[k], place).gap_mm < -reach_mm) return true;
-    }
+    if (candidate[static_cast<std::size_t>(point.node)]) continue;
+    const Eigen::Vector3d position_mm =
+        mesh_.nodes_mm.col(point.node) + state.rubber.displacements.segment<3>(3 * Eigen::Index(point.node));
+    if (penetrates(indenters_, tips_mm_ + state.contact.translations_mm, position_mm, allowed_mm)) return true;
   }
   return false;
 }
@@ -362,7 +348,7 @@ void ContactSolver::record(double fraction, int iteration) {
   steps_.push_back({fraction, iteration, relative_});
   if (!observer_.step) return;
   NewtonStep step = steps_.back();
-  step.loadFraction += static_cast<double>(now_); // each load of a path after the one before
+  step.loadFraction += static_cast<double>(now_); // the loads of a path in sequence
   observer_.step(step);
 }
 

@@ -6,10 +6,10 @@ namespace palp {
 
 namespace {
 
-constexpr double longestMove = 0.5; // of an indenter's expected depth, in one iteration
-// Of a load with friction. While it presses, rubber that comes to touch in a step sticks where it was before that step:
-// the error falls as the steps. Going sideways it slides one way, and steps hardly matter
-// (resources/docs/numerics/contact.md).
+constexpr double longestMove = 0.5; // of an indenter in one iteration, relative to its expected depth
+// Of a load with friction. During normal loading, rubber that comes into contact in an increment sticks where it was
+// before that increment: the error is proportional to the increment. Under tangential loading it slides in one
+// direction, and the increment hardly matters (resources/docs/numerics/contact.md).
 constexpr double frictionSteps = 4, stepsOfTwoParts = frictionSteps / pressShare;
 
 } // namespace
@@ -46,20 +46,41 @@ std::vector<ContactTarget> contactTargets(const std::vector<Indenter>& parts,
   return all;
 }
 
+bool constrainTangentially(std::vector<ContactTarget>& targets, const ContactState& state) {
+  bool any = false;
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    for (const int c : {0, 1})
+      if (targets[k].free(c)) {
+        targets[k].free(c) = false;
+        targets[k].translation_mm(c) = state.translations_mm(c, static_cast<Eigen::Index>(k));
+        any = true;
+      }
+  return any;
+}
+
+bool penetrates(const std::vector<Indenter>& indenters, const Eigen::Matrix3Xd& tips_mm,
+                const Eigen::Vector3d& position_mm, double allowed_mm) {
+  for (std::size_t k = 0; k < indenters.size(); ++k)
+    if (distance(indenters[k], position_mm - tips_mm.col(static_cast<Eigen::Index>(k))).gap_mm < -allowed_mm)
+      return true;
+  return false;
+}
+
 bool slidAway(const std::vector<Indenter>& indenters, std::span<const ContactEstimate> expected,
               const ContactState& from, const ContactState& to) {
   for (std::size_t k = 0; k < indenters.size(); ++k) {
     if (!indenters[k].press() || indenters[k].friction == 0) continue;
     const auto column = static_cast<Eigen::Index>(k);
-    const double way = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
-    if (way > expected[k].half_mm.minCoeff()) return true;
+    const double slip_mm = (to.translations_mm.col(column) - from.translations_mm.col(column)).head<2>().norm();
+    if (slip_mm > expected[k].half_mm.minCoeff()) return true;
   }
   return false;
 }
 
 ContactState untouched(std::size_t points, std::size_t indenters) {
   return {Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(points)),
-          Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters)), std::vector<Grip>(points, Grip::Free)};
+          Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(indenters)),
+          std::vector<ContactStatus>(points, ContactStatus::Open)};
 }
 
 } // namespace palp

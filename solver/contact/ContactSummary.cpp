@@ -31,11 +31,11 @@ IndenterState stateOf(const Indenter& indenter, int index, const Mesh& mesh, con
   double sliding = 0, force = 0, squares = 0;
   for (std::size_t p = 0; p < points.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
-    if (points[p].indenter != index || state.grips[p] == Grip::Free) continue;
+    if (points[p].indenter != index || state.statuses[p] == ContactStatus::Open) continue;
     result.force_N += state.forces_N.col(i);
     ++result.touchingNodes;
     result.contactArea_mm2 += points[p].area_mm2;
-    if (state.grips[p] == Grip::Slides) sliding += points[p].area_mm2;
+    if (state.statuses[p] == ContactStatus::Slip) sliding += points[p].area_mm2;
     const double share = state.forces_N.col(i).norm();
     force += share;
     squares += share * across(i) * across(i);

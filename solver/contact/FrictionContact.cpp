@@ -8,11 +8,8 @@ namespace palp {
 FrictionContact::FrictionContact(std::vector<Indenter> indenters, std::shared_ptr<const TopCompliance> top,
                                  const Mesh& mesh, const SensorDesign& design)
     : indenters_(std::move(indenters)), top_(std::move(top)), mesh_(mesh), design_(design),
-      expected_(contactEstimates(indenters_, design)),
+      tips_mm_(tipsAtRest_mm(indenters_, mesh)), expected_(contactEstimates(indenters_, design)),
       steps_(static_cast<int>(std::lround(1 / largestContactStep(indenters_, true)))) {
-  tips_mm_.resize(3, static_cast<Eigen::Index>(indenters_.size()));
-  for (std::size_t k = 0; k < indenters_.size(); ++k)
-    tips_mm_.col(static_cast<Eigen::Index>(k)) = tipAtRest_mm(indenters_[k], mesh);
   choosePoints(margin_);
   state_ = untouched(points_.size(), indenters_.size());
   beginStep(Eigen::Matrix3Xd::Zero(3, top_->count()));
@@ -28,7 +25,7 @@ void FrictionContact::choosePoints(double margin) {
   numbers_.clear();
   for (const ContactPoint& point : touchablePoints(mesh_, design_, {load}, margin)) {
     const auto at = std::lower_bound(top_->nodes().begin(), top_->nodes().end(), point.node);
-    if (at == top_->nodes().end() || *at != point.node) continue; // beyond the border of the compliance
+    if (at == top_->nodes().end() || *at != point.node) continue; // outside of the compliance
     points_.push_back(point);
     numbers_.push_back(static_cast<int>(at - top_->nodes().begin()));
   }
@@ -49,51 +46,43 @@ std::vector<Indenter> FrictionContact::partsAt(double fraction) const {
 void FrictionContact::beginStep(const Eigen::Matrix3Xd& motion_mm) {
   startMotion_mm_ = motion_mm;
   start_ = slipStart_ = state_;
-  sideways_ = Sideways::AsLoaded;
+  tangential_ = TangentialControl::Force;
   contact_->startStep(positions(motion_mm), start_);
   targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
 }
 
-/// The step is taken again from its start, down alone. The forces stay, as they are those that the nodes move under.
-/// False: it has been, or there is nothing to hold.
-bool FrictionContact::hold() {
-  if (sideways_ != Sideways::AsLoaded) return false;
-  bool any = false;
-  for (std::size_t k = 0; k < targets_.size(); ++k)
-    for (const int c : {0, 1})
-      if (targets_[k].free(c)) {
-        targets_[k].free(c) = false;
-        targets_[k].translation_mm(c) = start_.translations_mm(c, static_cast<Eigen::Index>(k));
-        any = true;
-      }
-  sideways_ = Sideways::Held;
-  turned_ = true;
-  return any;
+/// Repeats the increment from its start with the tangential translations held. The forces stay, since the nodes' motion
+/// belongs to them. Returns false if that was done already, or no indenter is free.
+bool FrictionContact::constrain() {
+  if (tangential_ != TangentialControl::Force) return false;
+  tangential_ = TangentialControl::Displacement;
+  modeChanged_ = true;
+  return constrainTangentially(targets_, start_);
 }
 
-void FrictionContact::letGo(const Eigen::Matrix3Xd& motion_mm) {
+void FrictionContact::release(const Eigen::Matrix3Xd& motion_mm) {
   startMotion_mm_ = motion_mm;
   slipStart_ = state_;
-  sideways_ = Sideways::LetGo;
-  turned_ = true;
+  tangential_ = TangentialControl::Free;
+  modeChanged_ = true;
   contact_->startStep(positions(motion_mm), slipStart_);
   targets_ = contactTargets(partsAt(double(step_) / steps_), expected_);
 }
 
-/// More points, for the step in work as well: those that are known already keep what they bear.
-void FrictionContact::widen() {
-  turned_ = true;
-  const std::vector<ContactPoint> known = points_;
+/// Adds candidate points, in the present increment too; existing ones keep their forces.
+void FrictionContact::extendCandidates() {
+  modeChanged_ = true;
+  const std::vector<ContactPoint> existing = points_;
   const ContactState before = start_, from = slipStart_, now = state_;
-  choosePoints(margin_ *= widerMargin);
+  choosePoints(margin_ *= marginGrowth);
   const auto grown = [&](const ContactState& small) {
     ContactState large = untouched(points_.size(), indenters_.size());
     large.translations_mm = small.translations_mm;
-    for (std::size_t i = 0, k = 0; i < points_.size(); ++i) { // both in the order of the nodes
-      while (k < known.size() && known[k].node < points_[i].node) ++k;
-      if (k == known.size() || known[k].node != points_[i].node) continue;
+    for (std::size_t i = 0, k = 0; i < points_.size(); ++i) { // both sorted by node
+      while (k < existing.size() && existing[k].node < points_[i].node) ++k;
+      if (k == existing.size() || existing[k].node != points_[i].node) continue;
       large.forces_N.col(static_cast<Eigen::Index>(i)) = small.forces_N.col(static_cast<Eigen::Index>(k));
-      large.grips[i] = small.grips[k];
+      large.statuses[i] = small.statuses[k];
     }
     return large;
   };
@@ -110,19 +99,19 @@ Eigen::Matrix3Xd FrictionContact::positions(const Eigen::Matrix3Xd& motion_mm) c
   return x;
 }
 
-/// Points that the compliance does not know are found by the border that they lie beyond.
+/// Fails where a point at the border of the compliance is in contact: points beyond it may be, too.
 bool FrictionContact::solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) {
   const ContactState before = state_;
   const auto solved = [&] {
     if (!contact_->solve(compliance_, positions(motion_mm), targets_, state_, stop)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i)
-      if (state_.grips[i] != Grip::Free && top_->atBorder(numbers_[i])) return false;
+      if (state_.statuses[i] != ContactStatus::Open && top_->atBorder(numbers_[i])) return false;
     return true;
   };
   if (points_.empty()) return false;
   if (solved()) return true;
   state_ = before;
-  return hold() && solved();
+  return constrain() && solved();
 }
 
 std::vector<NodeForce> FrictionContact::forces() const {
@@ -133,40 +122,35 @@ std::vector<NodeForce> FrictionContact::forces() const {
   return all;
 }
 
-bool FrictionContact::reachesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
-  const double reach_mm = top_->places_mm().row(2).maxCoeff() / beyondReachOfHeight;
+bool FrictionContact::touchesBeyond(const Eigen::Matrix3Xd& motion_mm) const {
+  const double allowed_mm = top_->places_mm().row(2).maxCoeff() / penetrationOfHeight;
   for (int i = 0; i < top_->count(); ++i) {
     if (std::binary_search(numbers_.begin(), numbers_.end(), i)) continue;
-    const Eigen::Vector3d place_mm = top_->places_mm().col(i) + motion_mm.col(i);
-    for (std::size_t k = 0; k < indenters_.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      if (distance(indenters_[k], place_mm - tips_mm_.col(column) - state_.translations_mm.col(column)).gap_mm <
-          -reach_mm)
-        return true;
-    }
+    const Eigen::Vector3d position_mm = top_->places_mm().col(i) + motion_mm.col(i);
+    if (penetrates(indenters_, tips_mm_ + state_.translations_mm, position_mm, allowed_mm)) return true;
   }
   return false;
 }
 
-LaneContact::Way FrictionContact::settled(const Eigen::Matrix3Xd& motion_mm) {
-  if (slid()) return hold() ? Way::StaysHere : Way::Lost;
-  if (reachesBeyond(motion_mm)) {
-    if (++widened_ == mostMargins) return Way::Lost;
-    widen();
-    return Way::StaysHere;
+ColumnContact::StepResult FrictionContact::finishIncrement(const Eigen::Matrix3Xd& motion_mm) {
+  if (slid()) return constrain() ? StepResult::RepeatIncrement : StepResult::Failed;
+  if (touchesBeyond(motion_mm)) {
+    if (++extensions_ == mostMargins) return StepResult::Failed;
+    extendCandidates();
+    return StepResult::RepeatIncrement;
   }
-  if (sideways_ == Sideways::Held) {
-    letGo(motion_mm);
-    return Way::StaysHere;
+  if (tangential_ == TangentialControl::Displacement) {
+    release(motion_mm);
+    return StepResult::RepeatIncrement;
   }
-  if (step_ == steps_) return Way::Arrived;
+  if (step_ == steps_) return StepResult::Converged;
   ++step_;
   beginStep(motion_mm);
-  return Way::GoesOn;
+  return StepResult::NextIncrement;
 }
 
-/// Not where some go aside from now on.
-bool FrictionContact::straightOn() const {
+/// Not where tangential loading starts with this increment.
+bool FrictionContact::extrapolates() const {
   return step_ - 1 != std::lround(pressShare * steps_) ||
          std::none_of(indenters_.begin(), indenters_.end(),
                       [](const Indenter& indenter) { return indenter.hasTwoParts(); });

@@ -21,7 +21,7 @@ constexpr int cellsAlong = 16;      // of cylinders and planes
 /// Heights z over distances r from the axis; the first at r = 0.
 using Profile = std::vector<Eigen::Vector2d>;
 
-/// Of a ball, as wide as the contact's half width wants.
+/// Of a ball, as wide as the contact's half width requires.
 Profile roundProfile(double radius, double half) {
   const double steepest = steepest_deg * std::numbers::pi / 180;
   const double angle = std::min(steepest, std::asin(std::min(1., gridReach * half / radius)));

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int mostContactSteps = 60;
 // Lengths are shares of the block's height.
-constexpr double nearGap = 0.3;           // nodes that far from an indenter do not come to touch it within a solve
-constexpr double depthStepsOfHeight = 50; // the longest
-constexpr double settledForce = 1e-9;     // change of the forces in a step, relative to their sum
-constexpr double settledOfHeight = 5e10;  // depths in it
+constexpr double nearGap = 0.3;            // nodes farther than this from an indenter do not reach it within a solve
+constexpr double depthStepsOfHeight = 50;  // the largest
+constexpr double convergedForce = 1e-9;    // change of the forces in a step, relative to their sum
+constexpr double convergedOfHeight = 5e10; // depths in it
 
 } // namespace
 
@@ -52,15 +52,16 @@ std::vector<NormalContact::FreeNode> NormalContact::nearNodes(const Eigen::Matri
   return near;
 }
 
-/// One step of the active set method; `settled` where it changed nothing any more. False: no answer.
-bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
+/// One step of the active set method; `converged` becomes whether it left everything unchanged. Returns false without a
+/// solution.
+bool NormalContact::step(const std::vector<FreeNode>& near, bool& converged) {
   const double longestDepthStep_mm = height_mm_ / depthStepsOfHeight;
-  // Where the nodes are under the forces found last, and which of them carry a force from now on.
+  // Positions of the nodes under the present forces, and the new active set.
   std::vector<int> active;
   std::vector<Nearest> touched;
-  std::vector<double> right; // minus the gap that would be left without the forces
+  std::vector<double> right; // minus the gap without the forces
   std::vector<double> smallestGap_mm(indenters_.size(), nearGap * height_mm_);
-  std::vector<char> holds(indenters_.size(), 0);
+  std::vector<char> carries(indenters_.size(), 0);
   std::size_t f = 0; // forces_ and near are in the order of the nodes
   for (const auto& [i, place_mm] : near) {
     while (f < forces_.size() && forces_[f].node < i) ++f;
@@ -72,20 +73,20 @@ bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
     active.push_back(i);
     touched.push_back(at);
     right.push_back(at.normal.dot(byForces_mm) - at.gap_mm);
-    holds[at.indenter] = 1;
+    carries[at.indenter] = 1;
   }
   const bool sameSet = std::equal(active.begin(), active.end(), forces_.begin(), forces_.end(),
                                   [](int i, const NodeForce& force) { return i == force.node; });
-  // An indenter that touches nothing goes down to the nearest node; one that does answers its force.
-  settled = sameSet;
+  // An indenter without contact moves down to the nearest node; one in contact is in equilibrium with its force.
+  converged = sameSet;
   std::vector<std::size_t> pressing;
   for (std::size_t k = 0; k < indenters_.size(); ++k) {
     if (!indenters_[k].press()) continue;
-    if (holds[k])
+    if (carries[k])
       pressing.push_back(k);
     else {
       tips_mm_[k].z() -= std::max(smallestGap_mm[k], 0.) + 1e-3 * longestDepthStep_mm;
-      settled = false;
+      converged = false;
     }
   }
   if (active.empty()) {
@@ -114,7 +115,7 @@ bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
         stiffness->solve(missing_N).cwiseMax(-longestDepthStep_mm).cwiseMin(longestDepthStep_mm);
     force_N += byDepth * deeper_mm;
     for (Eigen::Index k = 0; k < freed; ++k) tips_mm_[pressing[k]].z() += deeper_mm(k);
-    settled = settled && deeper_mm.cwiseAbs().maxCoeff() <= height_mm_ / settledOfHeight;
+    converged = converged && deeper_mm.cwiseAbs().maxCoeff() <= height_mm_ / convergedOfHeight;
   }
   if (!force_N.allFinite()) return false;
   double change_N = 0;
@@ -123,18 +124,18 @@ bool NormalContact::step(const std::vector<FreeNode>& near, bool& settled) {
     forces.push_back({active[a], force_N(a) * touched[a].normal});
     if (sameSet) change_N = std::max(change_N, (forces.back().force_N - forces_[a].force_N).norm());
   }
-  settled = settled && change_N <= settledForce * force_N.lpNorm<1>();
+  converged = converged && change_N <= convergedForce * force_N.lpNorm<1>();
   forces_ = std::move(forces);
   return true;
 }
 
 bool NormalContact::solve(const Eigen::Matrix3Xd& motion_mm, const std::stop_token& stop) {
   const std::vector<FreeNode> near = nearNodes(motion_mm);
-  bool settled = false;
-  for (int s = 0; s < mostContactSteps && !settled && !stop.stop_requested(); ++s)
-    if (!step(near, settled)) return false;
-  return settled && std::none_of(forces_.begin(), forces_.end(),
-                                 [&](const NodeForce& force) { return top_->atBorder(force.node); });
+  bool converged = false;
+  for (int s = 0; s < mostContactSteps && !converged && !stop.stop_requested(); ++s)
+    if (!step(near, converged)) return false;
+  return converged && std::none_of(forces_.begin(), forces_.end(),
+                                   [&](const NodeForce& force) { return top_->atBorder(force.node); });
 }
 
 std::vector<NodeForce> NormalContact::forces() const {

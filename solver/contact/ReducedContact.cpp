@@ -13,15 +13,16 @@ namespace palp {
 namespace {
 
 constexpr int mostIterations = 60;
-constexpr double exactly = 1e-12;       // of the greatest move
-constexpr double slipBeforeTouch = 0.5; // of a point's way in a step, where it comes to touch in that step
+constexpr double exactly = 1e-12; // relative to the largest translation
+constexpr double slipBeforeTouch =
+    0.5; // share of a point's motion in a step that counts as slip, if it comes into contact in that step
 constexpr double smallestTranslation = 1e-9;
-// Of the stiffness by which slip is weighed: tried one after the other until one leads to a solution, the same for all.
+// Factors on the stiffness that weighs slip: tried one after the other until one leads to a solution.
 constexpr std::array slipStiffnesses{1., 3., 1. / 3};
 
 /// Stiffness [N / mm] between that of one of these points alone and that of one when all move with it (geometric mean).
-/// Where slip is weighed by the first, points that a long way aside makes slip, before the rubber follows and they
-/// stick, are sent to and fro without end; where it is weighed by the second, those at the rim of what sticks are.
+/// Weighed by the first, points that slip under a large tangential motion, before the rubber follows and they stick,
+/// oscillate without end; weighed by the second, those at the rim of the stick zone do.
 double slipStiffness(const Eigen::MatrixXd& compliance, const std::vector<int>& points) {
   double alone = 0, together = 0; // of x and y
   for (const int i : points)
@@ -47,7 +48,7 @@ void ReducedContact::startStep(const Eigen::Matrix3Xd& positions_mm, const Conta
     const int k = points_[i].indenter;
     const auto column = static_cast<Eigen::Index>(i);
     startPlaces_mm_.col(column) -= tips_mm_.col(k) + start.translations_mm.col(k);
-    touchedAtStart_.push_back(start.grips[i] != Grip::Free);
+    touchedAtStart_.push_back(start.statuses[i] != ContactStatus::Open);
   }
 }
 
@@ -86,7 +87,7 @@ ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Ve
   c.byPlace = normal + near.gap_mm * H;
   // d(T f) = T df - H dx p - n (f . H dx)
   const Eigen::Matrix3d turning = -(p * H + n * (H * force).transpose());
-  c.grip = Grip::Slides;
+  c.status = ContactStatus::Slip;
   if (mu == 0 || p <= 0) {
     c.residual += T * force / stiffness;
     c.byForce = T / stiffness;
@@ -98,7 +99,7 @@ ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Ve
   const Eigen::Vector3d trial = T * (force - bySlip * slip);
   const double length = trial.norm();
   if (length <= mu * p) {
-    c.grip = Grip::Sticks;
+    c.status = ContactStatus::Stick;
     c.residual += T * slip;
     c.byPlace += share * T - (n.dot(slip) * H + n * (H * slip).transpose());
     return c;
@@ -167,13 +168,13 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
     const auto size = unknowns + static_cast<Eigen::Index>(moves.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd right(size);
-    bool gripsHold = true;
+    bool statusesHold = true;
     for (std::size_t a = 0; a < touching.size(); ++a) {
       const int i = touching[a];
       const auto row = static_cast<Eigen::Index>(3 * a);
       const Conditions c = conditions(i, f.col(i), x.col(i), d, stiffness, bySlip);
-      gripsHold = gripsHold && state.grips[static_cast<std::size_t>(i)] == c.grip;
-      state.grips[static_cast<std::size_t>(i)] = c.grip;
+      statusesHold = statusesHold && state.statuses[static_cast<std::size_t>(i)] == c.status;
+      state.statuses[static_cast<std::size_t>(i)] = c.status;
       for (std::size_t b = 0; b < touching.size(); ++b)
         matrix.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) =
             c.byPlace * compliance.block<3, 3>(3 * Eigen::Index(i), 3 * Eigen::Index(touching[b]));
@@ -188,8 +189,8 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
     }
     for (int i = 0; i < count; ++i)
       if (!std::binary_search(touching.begin(), touching.end(), i))
-        state.grips[static_cast<std::size_t>(i)] = Grip::Free;
-    bool searching = false; // an indenter has not met the body yet
+        state.statuses[static_cast<std::size_t>(i)] = ContactStatus::Open;
+    bool searching = false; // an indenter has not reached the body yet
     for (std::size_t m = 0; m < moves.size(); ++m) {
       const auto& [k, c] = moves[m];
       double sum = 0;
@@ -202,7 +203,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       const auto row = unknowns + static_cast<Eigen::Index>(m);
       right(row) = targets[static_cast<std::size_t>(k)].force_N(c) - sum;
       if (any) continue;
-      // Nothing to push against: towards the body.
+      // Without contact it moves towards the body.
       searching = true;
       matrix(row, row) = 1;
       right(row) = c == 2 ? -targets[static_cast<std::size_t>(k)].longestMove_mm / 4 : 0;
@@ -224,7 +225,7 @@ bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matri
       greatest = std::max(greatest, d.col(static_cast<Eigen::Index>(k)).norm());
     const double residual = unknowns > 0 ? right.head(unknowns).cwiseAbs().maxCoeff() : 0;
     const double step = change.head(unknowns).norm() / stiffness;
-    if (!searching && touching == before && gripsHold && share == 1 && residual < 1e-8 * greatest &&
+    if (!searching && touching == before && statusesHold && share == 1 && residual < 1e-8 * greatest &&
         step < std::sqrt(exactly) * 1e-3 * greatest * std::sqrt(1. + double(touching.size())))
       return true;
   }

@@ -33,16 +33,16 @@ TopCompliance::TopCompliance(const ElementwiseTangent& tangent, const Mesh& mesh
                              Eigen::MatrixXf blocks)
     : nodes_(nodesIn(mesh, part)), places_mm_(mesh.nodes_mm(Eigen::all, nodes_)),
       path_(tangent.tree(), rowsOf(nodes_, tangent)), blocks_(std::move(blocks)) {
-  std::vector<bool> leftOut(static_cast<std::size_t>(mesh.nodeCount()));
+  std::vector<bool> excluded(static_cast<std::size_t>(mesh.nodeCount()));
   for (const ContactPoint& point : contactPoints(mesh))
-    leftOut[std::size_t(point.node)] = !std::binary_search(nodes_.begin(), nodes_.end(), point.node);
-  std::vector<bool> beside(leftOut.size());
+    excluded[std::size_t(point.node)] = !std::binary_search(nodes_.begin(), nodes_.end(), point.node);
+  std::vector<bool> nextToExcluded(excluded.size());
   for (Eigen::Index f = 0; f < mesh.topFaces.cols(); ++f) {
     const auto face = mesh.topFaces.col(f);
-    if (std::any_of(face.begin(), face.end(), [&](int node) { return leftOut[std::size_t(node)]; }))
-      for (const int node : face) beside[std::size_t(node)] = true;
+    if (std::any_of(face.begin(), face.end(), [&](int node) { return excluded[std::size_t(node)]; }))
+      for (const int node : face) nextToExcluded[std::size_t(node)] = true;
   }
-  for (const int node : nodes_) atBorder_.push_back(beside[std::size_t(node)]);
+  for (const int node : nodes_) atBorder_.push_back(nextToExcluded[std::size_t(node)]);
 }
 
 std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangent& tangent, const Mesh& mesh,
@@ -55,15 +55,15 @@ std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangen
   const auto row = [&](int i) { // of the factor, for unknown i of the pressed nodes
     return std::size_t(tangent.factorRows()[3 * std::size_t(found->nodes_[i / 3]) + i % 3]);
   };
-  // The inverse is symmetric: of each column only what belongs to later rows of the factor is found, which takes no
-  // supernode before the column's own. Columns that are solved together begin near each other.
+  // The inverse is symmetric: of each column only the entries in later rows of the factor are computed, which needs no
+  // supernode before the column's own. Columns that are solved together start close to each other.
   std::vector<int> order(3 * std::size_t(count));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return row(a) < row(b); });
-  forChunks(3 * count, batchLanes, threads, [&](int begin, int end) {
-    std::vector<float> x(std::size_t(tangent.rightSideRows()) * batchLanes);
-    for (int i = begin; i < end; ++i) x[row(order[i]) * batchLanes + (i - begin)] = 1;
-    constexpr unsigned all = (1U << unsigned(batchLanes / lanes)) - 1;
+  forChunks(3 * count, batchColumns, threads, [&](int begin, int end) {
+    std::vector<float> x(std::size_t(tangent.rightSideRows()) * batchColumns);
+    for (int i = begin; i < end; ++i) x[row(order[i]) * batchColumns + (i - begin)] = 1;
+    constexpr unsigned all = (1U << unsigned(batchColumns / lanes)) - 1;
     constexpr int supernodesAtOnce = 64; // between looks at a stop request
     const auto own = std::upper_bound(factor.first, factor.first + factor.count, int(row(order[begin]))) - 1;
     const int from = int(own - factor.first);
@@ -74,7 +74,7 @@ std::shared_ptr<const TopCompliance> TopCompliance::find(const ElementwiseTangen
     for (int i = begin; i < end; ++i)
       for (int k = i; k < 3 * count; ++k)
         found->blocks_(order[k], order[i]) = found->blocks_(order[i], order[k]) =
-            x[row(order[k]) * batchLanes + (i - begin)];
+            x[row(order[k]) * batchColumns + (i - begin)];
   });
   if (stop.stop_requested()) return {};
   return found;

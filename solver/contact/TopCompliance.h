@@ -12,28 +12,29 @@
 
 namespace palp {
 
-/// How the nodes of the top face that an indenter can press move under forces on them, by the tangent at rest: 3 x 3
-/// blocks [mm/N] of its inverse, in single precision, as the factor is: an iteration is led by it, its answer is not.
+/// Compliance of the nodes of the top face that an indenter can press, from the tangent at rest: 3 x 3 blocks [mm/N] of
+/// its inverse, in single precision as the factor is. It preconditions an iteration and does not change its result.
 class TopCompliance {
 public:
-  /// The nodes that are meant.
+  /// Contact points in a part of the top face, or all of them, as nodes of the mesh.
   static std::vector<int> nodesIn(const Mesh& mesh, const std::optional<Rectangle>& part);
-  /// Of the contact points of the top face (ContactPoints.h), or of those in a part of it. Empty: stopped.
+  /// Computes the compliance of the contact points of the top face (ContactPoints.h), or of those in a part of it.
+  /// Returns null if cancelled.
   static std::shared_ptr<const TopCompliance> find(const ElementwiseTangent& tangent, const Mesh& mesh,
                                                    const std::optional<Rectangle>& part, int threads,
                                                    const std::stop_token& stop = {});
-  /// The same where it is known: 3 x 3 blocks in the order of the nodes.
+  /// From computed blocks, 3 x 3 in the order of the nodes.
   TopCompliance(const ElementwiseTangent& tangent, const Mesh& mesh, const std::optional<Rectangle>& part,
                 Eigen::MatrixXf blocks);
 
   [[nodiscard]] int count() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }         ///< of the mesh
   [[nodiscard]] const Eigen::Matrix3Xd& places_mm() const { return places_mm_; } ///< at rest
-  /// Of the nodes in the factor.
+  /// The part of the factor that the nodes' rows depend on.
   [[nodiscard]] const FactorPath& path() const { return path_; }
-  /// Whether node i lies beside contact points that are left out.
+  /// Whether node i has a neighbouring contact point outside of the part.
   [[nodiscard]] bool atBorder(int i) const { return atBorder_[std::size_t(i)]; }
-  /// Motion of node i, counted in nodes(), by a force on node j.
+  /// Displacement of node i, by its number in nodes(), per force on node j.
   [[nodiscard]] Eigen::Matrix3d block(int i, int j) const {
     return blocks_.block<3, 3>(3 * Eigen::Index(i), 3 * Eigen::Index(j)).cast<double>();
   }

@@ -15,13 +15,13 @@ bool canBeLast(const Mesh& mesh, const Rectangle& touched) {
   return count > 0 && count <= mostNodesLast;
 }
 
-std::optional<TouchedTangent> touchedTangent(const HyperelasticProblem::Parts& parts, const Rectangle& touched,
-                                             int threads, const std::stop_token& stop) {
-  auto pattern = std::make_shared<SparsePattern>(*parts.assembler.pattern());
-  for (const int node : TopCompliance::nodesIn(parts.mesh, touched))
-    pattern->lastGroups.push_back(parts.assembler.group(node));
-  const auto products = parts.assembler.rubber().roundsWell() ? Products::Single : Products::Double;
-  auto rest = parts.makeTangent(std::make_shared<const CholeskyPlan>(std::move(pattern)), threads, stop, products);
+std::optional<TouchedTangent> touchedTangent(const LinearisedBlock& linearised, const Rectangle& touched, int threads,
+                                             const std::stop_token& stop) {
+  auto pattern = std::make_shared<SparsePattern>(*linearised.assembler.pattern());
+  for (const int node : TopCompliance::nodesIn(linearised.mesh, touched))
+    pattern->lastGroups.push_back(linearised.assembler.group(node));
+  const auto products = linearised.assembler.rubber().roundsWell() ? UpdatePrecision::Single : UpdatePrecision::Double;
+  auto rest = linearised.makeTangent(std::make_shared<const CholeskyPlan>(std::move(pattern)), threads, stop, products);
   if (!rest) return {};
   const Eigen::MatrixXd inverse = rest->factor.inverseOfLast(stop);
   if (stop.stop_requested()) return {};

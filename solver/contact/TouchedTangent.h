@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/statics/ProblemParts.h"
+#include "solver/statics/LinearisedBlock.h"
 
 #include <Eigen/Core>
 
@@ -11,18 +11,18 @@
 namespace palp {
 
 /// The tangent at rest for touches in a part of the top face: the nodes that may be touched are eliminated last, so
-/// that their compliance comes with the factor, and contact is answered between the two ways of one substitution.
+/// that the factor contains their compliance, and contact is solved between the forward and the backward sweep.
 struct TouchedTangent {
-  std::shared_ptr<InitialTangent> rest; ///< its factor substitutes alone: what refines a solution is given back
-  Eigen::MatrixXf compliance;           ///< blocks of TopCompliance
+  std::shared_ptr<InitialTangent>
+      rest;                   ///< with the factor alone: the matrix, which only refines solutions, is released
+  Eigen::MatrixXf compliance; ///< blocks of TopCompliance
 };
 
-/// Whether so many nodes may be eliminated last: of more, the full matrix between them is the larger part of the
-/// factor.
+/// Whether the nodes in `touched` are few enough to be eliminated last: beyond that their dense matrix is the larger
+/// part of the factor.
 [[nodiscard]] bool canBeLast(const Mesh& mesh, const Rectangle& touched);
-/// Empty: stopped.
-[[nodiscard]] std::optional<TouchedTangent> touchedTangent(const HyperelasticProblem::Parts& parts,
-                                                           const Rectangle& touched, int threads,
-                                                           const std::stop_token& stop);
+/// Returns nullopt if cancelled.
+[[nodiscard]] std::optional<TouchedTangent> touchedTangent(const LinearisedBlock& linearised, const Rectangle& touched,
+                                                           int threads, const std::stop_token& stop);
 
 } // namespace palp

@@ -31,7 +31,7 @@ namespace {
 
 InstructionSet widest() {
 #ifdef PALP_WIDE_KERNELS
-  // x86-64-v4 and -v3; clang 14 knows no such names
+  // x86-64-v4 and -v3; clang 14 does not have these names
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     return InstructionSet::Avx512;

@@ -6,11 +6,11 @@ namespace palp {
 
 enum class ElementShape; // model/Mesh.h, kept out of the kernels' sources
 
-/// Numbers stand in blocks of 8 lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
+/// Values are stored in blocks of 8 SIMD lanes, [item][8]: 8 elements of one load, or 8 loads on one element.
 inline constexpr int lanes = 8;
 inline constexpr int largestElementDofs = 30; ///< of displacements, of all kinds
 
-/// Where number `item` of the `size` that each element has stands, [blocks][size][8]. Of loads on elements,
+/// Index of value `item` of the `size` values of an element in [blocks][size][8]. For loads on elements,
 /// [elements][blocks of loads][size][8], the index before it is element * loads + load.
 constexpr std::size_t laneIndex(std::size_t element, std::size_t size, std::size_t item) {
   return (element / lanes * size + item) * lanes + element % lanes;
@@ -94,7 +94,7 @@ struct ElementKernels {
 
 /// What the kernels are compiled for.
 enum class InstructionSet { Baseline, Avx2, Avx512 };
-/// The processor's widest that this program has, or less where PALP_INSTRUCTION_SET says so.
+/// The processor's widest instruction set that this program has, or the narrower one that PALP_INSTRUCTION_SET names.
 InstructionSet instructionSet();
 
 /// Kernels for the shape, by the widest instruction set of this processor; numbers in the order of TetLayout and

@@ -4,8 +4,8 @@
 
 namespace palp {
 
-/// Loads that are iterated together: one a lane.
-inline constexpr int batchLanes = 32;
+/// Columns of right-hand sides that are solved together.
+inline constexpr int batchColumns = 32;
 inline constexpr int factorBlockRows = 8;
 
 /// A Cholesky factor in single precision: it only preconditions iterations whose residuals are in double. Each
@@ -26,30 +26,30 @@ struct SurfacePoints {
   std::ptrdiff_t count;
 };
 
-/// Of the steps before that go into a mixed one (batch/LaneMixing.h).
+/// Number of previous steps in a mixed one (batch/AndersonBatch.h).
 inline constexpr int mixingDepth = 2;
-/// What is kept of a number, [these][8]: direction, step, motions, and of a leading one the changes of its direction.
+/// History of an unknown, [these][8]: direction, step, motions, and for a leading one the changes of its direction.
 inline constexpr int followingPast = 2 + mixingDepth, leadingPast = followingPast + mixingDepth;
-/// Sums over the leading numbers: for each change its products with those up to itself, then with the direction.
+/// Sums over the leading unknowns: for each change its products with those up to itself, then with the direction.
 inline constexpr int mixSums = mixingDepth * (mixingDepth + 1) / 2 + mixingDepth;
 
 /// How the steps of 8 lanes are mixed. Masks are 0 or -1.
 struct LaneMix {
-  int moves[8] = {};              ///< the lane goes on at all
-  int pair[8] = {};               ///< its last step and this direction make another motion and change
-  int known[mixingDepth][8] = {}; ///< it has so many motions, the newest first
+  int moves[8] = {};                  ///< whether the lane moves at all
+  int pair[8] = {};                   ///< whether its last step and this direction give a further motion and change
+  int hasMotion[mixingDepth][8] = {}; ///< whether motion j is stored, the newest first
   double gamma[mixingDepth][8] = {};
   double scale[8] = {}; ///< of its directions
 };
 
-/// How 8 lanes begin another load: from rest, or from where they are, or as much further as they have gone since the
-/// load before began. Masks are 0 or -1; the last two are of lanes that begin.
-struct LaneStarts {
+/// Initial guess of 8 lanes for their next load increment: their present state, rest (`atRest`), or the present state
+/// extrapolated by the previous increment (`ahead`). Masks are 0 or -1; `begins` is set for lanes that start one.
+struct InitialGuess {
   int begins[8] = {}, atRest[8] = {}, ahead[8] = {};
 };
 
-/// Some rows of 8 lanes: directions [rows of the factor + 1][batchLanes], where in it each of the rows stands, and
-/// their past, [leadingPast][8] each, so many numbers apart.
+/// Some rows of 8 lanes: directions [rows of the factor + 1][batchColumns], the index of each row in it, and the rows'
+/// history, [leadingPast][8] each, pastStride apart.
 struct MixedRows {
   const float* directions;
   const int* rows;
@@ -66,7 +66,7 @@ struct LowerTriangle {
 };
 
 struct LaneKernels {
-  /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchLanes]: x becomes L^-1 x from the first
+  /// Substitution through supernodes first .. last - 1 for x [rows + 1][batchColumns]: x becomes L^-1 x from the first
   /// supernode to the last (forward), or L^-T x from the last to the first (backward). Lanes whose block of 8 is not
   /// live (bit b for lanes 8 b .. 8 b + 7) may be left out.
   void (*forward)(const BlockedFactor&, int first, int last, unsigned live, float* x);
@@ -77,40 +77,41 @@ struct LaneKernels {
   /// out[row * stride + lane] += sum over t of coefficients[row][t] monomials[t][lane], 8 lanes.
   void (*addPolynomials)(const double* coefficients, int terms, const double* monomials, int rows, double* out,
                          int stride);
-  /// An element's part [3 count][8] of values [3 nodes of the mesh][batchLanes], for the 8 lanes that `values` begins
+  /// An element's part [3 count][8] of values [3 nodes of the mesh][batchColumns], for the 8 lanes that `values` begins
   /// with, and the opposite: values -= the element's forces.
   void (*gather)(const double* values, const int* nodes, int count, double* out);
   void (*subtract)(const double* forces, const int* nodes, int count, double* values);
-  /// scale[lane] x[rows[component]][lane], at the same components, for 8 lanes of x [rows + 1][batchLanes].
+  /// scale[lane] x[rows[component]][lane], at the same components, for 8 lanes of x [rows + 1][batchColumns].
   void (*gatherScaled)(const float* x, const int* rows, const double* scale, const int* nodes, int count, double* out);
-  /// The past takes the rows' directions in, and `sums` [mixSums][8] grow by these rows.
+  /// Adds the rows' directions to their history and their products to `sums` [mixSums][8].
   void (*sumMixed)(const MixedRows&, const LaneMix&, double* sums);
-  /// Then the mixed steps, added to u [rows][batchLanes].
+  /// Then the mixed steps, added to u [rows][batchColumns].
   void (*stepMixed)(const MixedRows&, const LaneMix&, double* u);
   /// Both for numbers that follow with the same gamma: directions and values [count][8], past
   /// [count][followingPast][8].
   void (*followMixed)(const double* directions, int count, const LaneMix&, float* past, double* values);
-  /// Lanes that begin another load, values and before [rows][stride]: `before` becomes where they were, or rest.
-  void (*beginLoads)(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts&);
+  /// Initial guess of lanes that start a load increment, values and before [rows][stride]; `before` becomes their
+  /// present state, or rest.
+  void (*beginLoads)(double* values, float* before, int rows, std::ptrdiff_t stride, const InitialGuess&);
   /// potential += 1/r and flux -= area . r / r^3 at each point, r from the source at three coordinates.
   void (*addPointSource)(const SurfacePoints&, const double* source, double* potential, double* flux);
   /// sums[8] = sum over k of matrix[k][8] values[k].
   void (*eightSums)(const double* matrix, const double* values, int count, double* sums);
-  /// Of numbers [rows][batchLanes]: sums[lane] += their squares; to single precision, times scale[lane], row i becoming
-  /// row order[i]; and back.
+  /// Of numbers [rows][batchColumns]: sums[lane] += their squares; to single precision, times scale[lane], row i
+  /// becoming row order[i]; and back.
   void (*addSquares)(const double* x, int rows, double* sums);
   void (*narrow)(const double* x, const double* scale, const int* order, int rows, float* out);
   void (*widen)(const float* x, const double* scale, const int* order, int rows, double* out);
-  /// from -= K x, both [rows][batchLanes].
+  /// from -= K x, both [rows][batchColumns].
   void (*subtractProduct)(const LowerTriangle& K, const double* x, double* from);
 };
 const LaneKernels& laneKernels();
 
-/// A lane's numbers over another's, in values [...][batchLanes / 8][count][8].
-template <class T> void copyLane(T* values, std::size_t size, int count, int from, int to) {
+/// Copies a column's values to another, in values [...][batchColumns / 8][count][8].
+template <class T> void copyColumn(T* values, std::size_t size, int count, int from, int to) {
   constexpr int width = 8;
   const auto start = [&](int lane) { return std::size_t(lane / width) * count * width + lane % width; };
-  for (std::size_t outer = 0; outer < size; outer += std::size_t(batchLanes) * count)
+  for (std::size_t outer = 0; outer < size; outer += std::size_t(batchColumns) * count)
     for (std::size_t i = 0; i < std::size_t(count) * width; i += width)
       values[outer + start(to) + i] = values[outer + start(from) + i];
 }

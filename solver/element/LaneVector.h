@@ -7,12 +7,12 @@
 
 namespace palp {
 
-/// Memory on cache lines, so that a load of 8 lanes never crosses one. Large pieces come from the system and go back to
-/// it at once, for the heap would keep them; they lie on huge pages where there are any, whose first touch takes a
-/// third of the time.
+/// Memory on cache lines, so that a load of 8 lanes never crosses one. Large pieces are mapped from the system and
+/// unmapped immediately, since the heap would keep them; they are on huge pages where available, whose first access
+/// takes a third of the time.
 void* lineMemory(std::size_t bytes);
 void freeLineMemory(void* memory, std::size_t bytes);
-/// Gives the first so many bytes of a piece back to the system while the rest stays, where the piece is large.
+/// Returns the first `first` bytes of a large piece to the system; the remainder stays.
 void freeFirst(void* memory, std::size_t bytes, std::size_t first);
 
 template <class T> struct CacheLineAllocator {
@@ -36,10 +36,10 @@ public:
   /// Forgets the numbers where the size changes.
   void resize(std::size_t size) {
     if (size == this->size()) return;
-    memory_.reset(); // before the new memory is there
+    memory_.reset(); // before the new memory is allocated
     if (size > 0) memory_ = {static_cast<T*>(lineMemory(size * sizeof(T))), Free{size}};
   }
-  /// The first so many numbers are unset again, and their memory need not be there.
+  /// Unsets the first `count` values and releases their memory where possible.
   void forgetFirst(std::size_t count) { freeFirst(data(), size() * sizeof(T), count * sizeof(T)); }
   [[nodiscard]] std::size_t size() const { return memory_ ? memory_.get_deleter().size : 0; }
   [[nodiscard]] T* data() { return memory_.get(); }

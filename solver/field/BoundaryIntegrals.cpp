@@ -32,7 +32,7 @@ std::uint64_t alongCurve(const Eigen::Vector3d& share) {
   return place;
 }
 
-/// In which neighbours stand together.
+/// Order of the faces in which neighbours are close together.
 std::vector<int> orderOf(const FieldMesh& mesh) {
   const Eigen::Matrix3Xd& nodes = mesh.tets().nodes_mm;
   const Eigen::Vector3d low = nodes.rowwise().minCoeff();
@@ -134,9 +134,9 @@ void BoundaryIntegrals::addProducts(const Piece& piece, const SourceRows& potent
                                                         std::size_t(f) * kFacePoints) -=
           BoundaryQuadrature::atPoints(atNodes);
     }
-  Eigen::MatrixXd some(near, batchLanes);
-  for (int q = 0; q < count; q += batchLanes) {
-    const int columns = std::min(batchLanes, count - q);
+  Eigen::MatrixXd some(near, batchColumns);
+  for (int q = 0; q < count; q += batchColumns) {
+    const int columns = std::min(batchColumns, count - q);
     const auto rows =
         static_cast<int>(std::lower_bound(piece.near.begin(), piece.near.end(), q + columns) - piece.near.begin());
     if (rows == 0) continue;
@@ -151,28 +151,28 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
                                                 const std::vector<Eigen::Matrix3Xd>& sources_mm,
                                                 const FieldFunctions& functions, int threads,
                                                 const std::stop_token& stop) const {
-  const Conductivity& conductivity = functions.conductivity();
-  const bool uneven = conductivity.uneven();
+  const FieldConductivity& conductivity = functions.conductivity();
+  const bool heterogeneous = conductivity.heterogeneous();
   const auto count = static_cast<int>(sources_mm.size());
   const BoundaryQuadrature boundary(faces_, nodes_mm);
   const auto nodes = static_cast<Eigen::Index>(boundary_.size());
   Result result{SourceRows::Zero(nodes, count), potentials(nodes_mm, sources_mm, threads), {}};
-  SourceRows weighted = SourceRows::Zero(uneven ? 2 * nodes : 0, count); // by m; then of the corners' functions
+  SourceRows weighted = SourceRows::Zero(heterogeneous ? 2 * nodes : 0, count); // by m; then of the corners' functions
   std::vector<Eigen::MatrixXd> products(kParts);
   std::vector<SourceRows> shared(kParts), sharedWeighted(kParts);
   forChunks(kParts, 1, threads, [&](int p, int) {
     const Part& part = parts_[std::size_t(p)];
     products[std::size_t(p)] = Eigen::MatrixXd::Zero(count, count);
     shared[std::size_t(p)] = SourceRows::Zero(Eigen::Index(part.shared.size()), count);
-    if (uneven) sharedWeighted[std::size_t(p)] = SourceRows::Zero(2 * Eigen::Index(part.shared.size()), count);
+    if (heterogeneous) sharedWeighted[std::size_t(p)] = SourceRows::Zero(2 * Eigen::Index(part.shared.size()), count);
     Room room(count);
     UnsetArray<double> unused(kPiecePoints);
     SourceRows onFaces(6 * kFacesAPiece, count), onFacesWeighted = onFaces, onCorners(3 * kFacesAPiece, count);
     Eigen::Matrix<double, kFacePoints, kFacesAPiece> roots, left; // m, I(1/m) - 1/m
     for (const Piece& piece : part.pieces) {
       if (stop.stop_requested()) return;
-      for (int f = 0; f < piece.count && uneven; ++f) {
-        const auto root = [&](double pressure) { return std::exp(conductivity.half(pressure)); };
+      for (int f = 0; f < piece.count && heterogeneous; ++f) {
+        const auto root = [&](double pressure) { return std::exp(conductivity.halfLogConductivity(pressure)); };
         const Eigen::Matrix<double, 6, 1> pressures = conductivity.pressures_MPa(faces_.col(piece.first + f));
         roots.col(f) = BoundaryQuadrature::atPoints(pressures).unaryExpr(root);
         left.col(f) =
@@ -188,7 +188,7 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
         for (int f = 0; f < piece.count; ++f) {
           const Eigen::Index row = 6 * Eigen::Index(f);
           onFaces.col(q).segment<6>(row) = BoundaryQuadrature::onShapes(flux + f * kFacePoints);
-          if (!uneven) continue;
+          if (!heterogeneous) continue;
           Eigen::Matrix<double, kFacePoints, 1> own =
               Eigen::Map<const Eigen::Matrix<double, kFacePoints, 1>>(flux + f * kFacePoints)
                   .cwiseProduct(roots.col(f));
@@ -206,8 +206,8 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
           }
       };
       subtract(onFaces, result.right, shared[std::size_t(p)]);
-      if (uneven) subtract(onFacesWeighted, weighted, sharedWeighted[std::size_t(p)]);
-      for (int f = 0; f < piece.count && uneven; ++f)
+      if (heterogeneous) subtract(onFacesWeighted, weighted, sharedWeighted[std::size_t(p)]);
+      for (int f = 0; f < piece.count && heterogeneous; ++f)
         for (int corner = 0; corner < 3; ++corner) {
           if (!functions.isRough(faces_(corner, piece.first + f))) continue;
           const int place = places_(corner, piece.first + f);
@@ -224,14 +224,14 @@ BoundaryIntegrals::Result BoundaryIntegrals::at(const Eigen::Matrix3Xd& nodes_mm
     result.products += products[p];
     for (std::size_t i = 0; i < parts_[p].shared.size(); ++i) {
       result.right.row(parts_[p].shared[i]) += shared[p].row(Eigen::Index(i));
-      if (!uneven) continue;
+      if (!heterogeneous) continue;
       weighted.row(parts_[p].shared[i]) += sharedWeighted[p].row(Eigen::Index(i));
       weighted.row(nodes + parts_[p].shared[i]) += sharedWeighted[p].row(Eigen::Index(parts_[p].shared.size() + i));
     }
   }
-  if (!uneven) return result;
-  forChunks((count + batchLanes - 1) / batchLanes, 1, threads, [&](int batch, int) {
-    const int first = batch * batchLanes, some = std::min(batchLanes, count - first);
+  if (!heterogeneous) return result;
+  forChunks((count + batchColumns - 1) / batchColumns, 1, threads, [&](int batch, int) {
+    const int first = batch * batchColumns, some = std::min(batchColumns, count - first);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, first + some, some, static_cast<int>(nodes), 1,
                 result.potentials.data(), count, result.right.data() + first, count, 1,
                 result.products.col(first).data(), count);

@@ -18,18 +18,18 @@ public:
   BoundaryIntegrals(const FieldMesh& mesh, const Eigen::Matrix3Xd& electrodes_mm);
 
   struct Result {
-    SourceRows right; ///< - oint m s_q,n N_a, m that of UnevenConductivity or 1; rows() x electrodes
+    SourceRows right; ///< - oint m s_q,n N_a, m that of HeterogeneousConductivity or 1; rows() x electrodes
     SourceRows
         potentials; ///< s_p at the boundary's nodes for k = 1, where oint I s_p s_q,n is still to come; else none
-    Eigen::MatrixXd products; ///< - oint (s_p - I s_p) s_q,n, or - oint s_p s_q,n; for p <= q by whole batches
+    Eigen::MatrixXd products; ///< - oint (s_p - I s_p) s_q,n, or - oint s_p s_q,n; for p <= q by complete batches
   };
   /// The same bytes at any number of threads.
   [[nodiscard]] Result at(const Eigen::Matrix3Xd& nodes_mm, const std::vector<Eigen::Matrix3Xd>& sources_mm,
                           const FieldFunctions& functions, int threads, const std::stop_token& stop) const;
   /// Of the functions (FieldFunctions) that the rows of `right` belong to, ascending: those of the boundary's nodes, or
   /// all where k varies.
-  [[nodiscard]] const std::vector<int>& rows(const Conductivity& conductivity) const {
-    return conductivity.uneven() ? all_ : boundary_;
+  [[nodiscard]] const std::vector<int>& rows(const FieldConductivity& conductivity) const {
+    return conductivity.heterogeneous() ? all_ : boundary_;
   }
 
 private:
@@ -50,7 +50,7 @@ private:
   void addProducts(const Piece& piece, const SourceRows& potentials, Room& room, Eigen::MatrixXd& products) const;
 
   const FieldMesh* mesh_;
-  Eigen::MatrixXi faces_; ///< in an order in which neighbours stand together
+  Eigen::MatrixXi faces_; ///< ordered so that neighbours are close together
   std::vector<int> all_, boundary_;
   std::vector<Part> parts_;
   Eigen::MatrixXi rows_;   ///< of the boundary's nodes, 6 x faces

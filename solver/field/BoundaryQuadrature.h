@@ -4,8 +4,8 @@
 
 namespace palp {
 
-/// Quadrature points on the boundary of the deformed block, face by face: where they are, and the outward normal times
-/// the area that each stands for.
+/// Quadrature points on the boundary of the deformed block, face by face: positions, and the outward normal times the
+/// area weight of each.
 class BoundaryQuadrature {
 public:
   /// Nodes of the faces as FieldMesh has them.
@@ -15,7 +15,7 @@ public:
   /// Potential 1/(4 pi r) of sources (3 x sources) together at the points of faces first .. first + count - 1, and its
   /// flux outward times the area.
   void sources(const Eigen::Matrix3Xd& sources_mm, int first, int count, double* potential, double* flux) const;
-  /// Integrals of a face's six shape functions with what stands at its points, areas included.
+  /// Integrals of a face's six shape functions times values at its points, which include the areas.
   [[nodiscard]] static Eigen::Matrix<double, 6, 1> onShapes(const double* points);
   /// The same with its three barycentric coordinates.
   [[nodiscard]] static Eigen::Matrix<double, 3, 1> onCorners(const double* points);

@@ -23,15 +23,15 @@ using Volumes = Eigen::Matrix<double, FieldFunctions::most, 1>;
 
 } // namespace
 
-ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh), even_(numbering(10)) {}
+ConductionMatrix::ConductionMatrix(const FieldMesh& mesh) : mesh_(&mesh), uniform_(numbering(10)) {}
 
-const ConductionMatrix::Numbering& ConductionMatrix::numberingOf(const Conductivity& conductivity) const {
-  if (!conductivity.uneven()) return even_;
-  std::call_once(unevenFound_, [&] { uneven_ = numbering(FieldFunctions::most); });
-  return uneven_;
+const ConductionMatrix::Numbering& ConductionMatrix::numberingOf(const FieldConductivity& conductivity) const {
+  if (!conductivity.heterogeneous()) return uniform_;
+  std::call_once(heterogeneousFound_, [&] { heterogeneous_ = numbering(FieldFunctions::most); });
+  return heterogeneous_;
 }
 
-const std::shared_ptr<const CholeskyPlan>& ConductionMatrix::plan(const Conductivity& conductivity) const {
+const std::shared_ptr<const CholeskyPlan>& ConductionMatrix::plan(const FieldConductivity& conductivity) const {
   return numberingOf(conductivity).plan;
 }
 
@@ -80,7 +80,7 @@ ConductionMatrix::Numbering ConductionMatrix::numbering(int functions) const {
 ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                               int threads) const {
   const TetRule& rule = tetRule();
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const Numbering& numbering = numberingOf(conductivity);
   const Eigen::MatrixXi& elements = mesh_->tets().elements;
   const auto most = static_cast<std::size_t>(numbering.functions);
@@ -93,25 +93,26 @@ ConductionMatrix::Values ConductionMatrix::at(const Eigen::Matrix3Xd& nodes_mm, 
       Volumes volumes = Volumes::Zero();
       if (functions.count(e) == 10) {
         Eigen::Matrix<double, 10, 1> atNodes = Eigen::Matrix<double, 10, 1>::Ones(); // pressures, or k = 1
-        if (conductivity.uneven()) atNodes = conductivity.pressures_MPa(elements.col(e));
+        if (conductivity.heterogeneous()) atNodes = conductivity.pressures_MPa(elements.col(e));
         for (std::size_t q = 0; q < TetRule::points; ++q) {
           const Eigen::Matrix3d map = places * rule.gradients[q];
           const Eigen::Matrix<double, 10, 3> gradients = rule.gradients[q] * map.inverse();
           const auto shapes = rule.shapes.col(static_cast<Eigen::Index>(q));
           const double weight = rule.weights[q] * map.determinant() / 6;
           const double between = shapes.dot(atNodes);
-          const double k = conductivity.uneven() ? std::exp(2 * conductivity.half(between)) : between;
+          const double k =
+              conductivity.heterogeneous() ? std::exp(2 * conductivity.halfLogConductivity(between)) : between;
           stiffness.topLeftCorner<10, 10>().noalias() += (weight * k) * (gradients * gradients.transpose());
           volumes.head<10>() += weight * shapes;
         }
       } else {
         const Eigen::Matrix<double, 10, 1> pressures = conductivity.pressures_MPa(elements.col(e));
-        for (const TetPoint& point : tetPointsBesideKink(pressures)) {
+        for (const TetPoint& point : tetPointsAroundKink(pressures)) {
           const FieldFunctions::Point at = functions.at(e, point.barycentric);
           const Eigen::Matrix3d map = places * at.gradients.topRows<10>();
           const Eigen::Matrix<double, FieldFunctions::most, 3> gradients = at.gradients * map.inverse();
           const double weight = point.weight * map.determinant() / 6;
-          const double k = std::exp(2 * conductivity.half(at.values.head<10>().dot(pressures)));
+          const double k = std::exp(2 * conductivity.halfLogConductivity(at.values.head<10>().dot(pressures)));
           stiffness.noalias() += (weight * k) * (gradients * gradients.transpose());
           volumes += weight * at.values;
         }

@@ -19,13 +19,13 @@ namespace palp {
 
 namespace {
 
-/// Faces that mirror: those nearer than so many times the edge of the mesh's faces. From there on the flux through a
-/// face is smooth on the scale of its elements.
-constexpr double kReachInEdges = 2.5;
+/// Distance up to which faces have image sources, relative to the edge of the mesh's faces. Beyond it the flux through
+/// a face is smooth on the scale of its elements.
+constexpr double kCutoffInEdges = 2.5;
 
-double reach_mm(const FieldMesh& mesh, const Eigen::Vector3d& b) {
+double cutoff_mm(const FieldMesh& mesh, const Eigen::Vector3d& b) {
   const double area = 2 * (b.x() * b.y() + b.y() * b.z() + b.z() * b.x());
-  return kReachInEdges * std::sqrt(4 / std::sqrt(3.) * area / static_cast<double>(mesh.faces().cols()));
+  return kCutoffInEdges * std::sqrt(4 / std::sqrt(3.) * area / static_cast<double>(mesh.faces().cols()));
 }
 
 /// Barycentric coordinates of a point in a deformed element, by Newton's method from a first guess.
@@ -46,7 +46,7 @@ Eigen::Vector4d barycentricIn(const Eigen::Matrix<double, 3, 10>& nodes, const E
 struct DeformedGreen::System {
   FieldFunctions functions;
   std::vector<Eigen::Matrix3Xd> sources;
-  std::vector<double> reaches_mm;
+  std::vector<double> cutoffs_mm;
   std::vector<AtElectrode> electrodes;
   Eigen::VectorXd volumes; ///< ConductionMatrix::Values
   SparseCholesky factor;
@@ -54,20 +54,20 @@ struct DeformedGreen::System {
 
 DeformedGreen::DeformedGreen(const Mesh& solverMesh, const Eigen::Vector3d& block_mm,
                              const Eigen::Matrix3Xd& electrodes_mm)
-    : mesh_(solverMesh), reach_mm_(reach_mm(mesh_, block_mm)), sources_(mesh_, block_mm, electrodes_mm, reach_mm_),
+    : mesh_(solverMesh), cutoff_mm_(cutoff_mm(mesh_, block_mm)), sources_(mesh_, block_mm, electrodes_mm, cutoff_mm_),
       boundary_(mesh_, electrodes_mm), matrix_(mesh_), means_(mesh_) {
   const Eigen::MatrixXi& elements = mesh_.tets().elements;
   std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh_.nodes()));
   for (int e = 0; e < mesh_.elements(); ++e)
     for (int n = 0; n < 4; ++n) around[static_cast<std::size_t>(elements(n, e))].push_back(e);
   const PointProbe probe(mesh_.tets(), electrodes_mm);
-  for (const auto& holders : probe.holders()) {
+  for (const auto& hosts : probe.hosts()) {
     std::vector<Place>& own = atRest_.emplace_back();
     std::vector<int>& near = neighbours_.emplace_back();
-    for (const PointProbe::Holder& holder : holders) {
-      own.push_back({holder.element, holder.pressure});
+    for (const PointProbe::Host& host : hosts) {
+      own.push_back({host.element, host.pressure});
       for (int n = 0; n < 4; ++n) {
-        const std::vector<int>& more = around[static_cast<std::size_t>(elements(n, holder.element))];
+        const std::vector<int>& more = around[static_cast<std::size_t>(elements(n, host.element))];
         near.insert(near.end(), more.begin(), more.end());
       }
     }
@@ -85,8 +85,8 @@ DeformedGreen::gradientsIn(const FieldFunctions& functions, const FieldState& st
 }
 
 std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const FieldState& state) const {
-  // Of barycentric coordinates: the rubber moves past electrodes that are held, and what is read of the elements that
-  // held them at rest follows the load smoothly, where a change of elements would be a jump.
+  // Barycentric tolerance: the rubber moves past fixed electrodes, and values in their host elements at rest change
+  // smoothly with the load, where a change of host element would be a jump.
   constexpr double inside = 0.3;
   std::vector<std::vector<Place>> all(atRest_.size());
   for (std::size_t p = 0; p < all.size(); ++p) {
@@ -98,9 +98,9 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
       if (const Eigen::Vector4d l = in(place.element, place.barycentric); l.allFinite() && l.minCoeff() > -inside)
         all[p].push_back({place.element, l});
     if (!all[p].empty()) continue;
-    for (const int e : neighbours_[p]) { // far past it
+    for (const int e : neighbours_[p]) { // far outside of them
       const Eigen::Vector4d l = in(e, Eigen::Vector4d::Constant(0.25));
-      if (!l.allFinite()) continue; // an element turned inside out holds no point
+      if (!l.allFinite()) continue; // an element turned inside out contains no point
       if (all[p].empty()) all[p].push_back({e, l});
       if (l.minCoeff() > all[p].front().barycentric.minCoeff()) all[p].front() = {e, l};
     }
@@ -113,7 +113,7 @@ std::vector<std::vector<DeformedGreen::Place>> DeformedGreen::places(const Field
 
 Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state, const FieldFunctions& functions) const {
   Eigen::Matrix3Xd slopes = Eigen::Matrix3Xd::Zero(3, mesh_.nodes());
-  if (!state.conductivity.uneven()) return slopes;
+  if (!state.conductivity.heterogeneous()) return slopes;
   Eigen::VectorXd around = Eigen::VectorXd::Zero(mesh_.nodes());
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
@@ -129,26 +129,26 @@ Eigen::Matrix3Xd DeformedGreen::pressureSlopes(const FieldState& state, const Fi
   return slopes;
 }
 
-std::vector<double> DeformedGreen::reaches_mm(const std::vector<Eigen::Matrix3Xd>& sources_mm) const {
+std::vector<double> DeformedGreen::cutoffs_mm(const std::vector<Eigen::Matrix3Xd>& sources_mm) const {
   std::vector<double> all;
   for (const Eigen::Matrix3Xd& of : sources_mm) {
-    double reach = reach_mm_; // a face nearer than that has an image
-    for (Eigen::Index m = 1; m < of.cols(); ++m) reach = std::min(reach, (of.col(m) - of.col(0)).norm() / 2);
-    all.push_back(reach);
+    double cutoff = cutoff_mm_; // a nearer face has an image
+    for (Eigen::Index m = 1; m < of.cols(); ++m) cutoff = std::min(cutoff, (of.col(m) - of.col(0)).norm() / 2);
+    all.push_back(cutoff);
   }
   return all;
 }
 
 std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, const FieldFunctions& functions,
-                                                     const std::vector<double>& reaches_mm, int threads) const {
+                                                     const std::vector<double>& cutoffs_mm, int threads) const {
   std::vector<AtElectrode> all(atRest_.size());
-  if (!state.conductivity.uneven()) return all;
+  if (!state.conductivity.heterogeneous()) return all;
   const std::vector<std::vector<Place>> where = places(state);
   inParallel(all.size(), threads, [&](std::size_t p) {
     const Place& place = where[p].front();
     all[p] = means_.around(state.nodes_mm, functions,
                            {place.element, place.barycentric, state.electrodes_mm.col(static_cast<Eigen::Index>(p)),
-                            state.radius_mm, reaches_mm[p]});
+                            state.radius_mm, cutoffs_mm[p]});
   });
   return all;
 }
@@ -156,7 +156,7 @@ std::vector<AtElectrode> DeformedGreen::atElectrodes(const FieldState& state, co
 Eigen::VectorXd DeformedGreen::conductivities(const FieldState& state) const {
   const std::vector<AtElectrode> at =
       atElectrodes(state, FieldFunctions(mesh_, state.conductivity, 1),
-                   std::vector<double>(atRest_.size(), state.radius_mm), 1); // no further than their spheres
+                   std::vector<double>(atRest_.size(), state.radius_mm), 1); // not beyond their spheres
   Eigen::VectorXd k(static_cast<Eigen::Index>(at.size()));
   for (std::size_t p = 0; p < at.size(); ++p) k(static_cast<Eigen::Index>(p)) = std::exp(2 * at[p].value);
   return k;
@@ -171,8 +171,8 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   SparseCholesky factor(matrix_.plan(state.conductivity));
   if (factor.factorise(std::move(values.matrix), threads, stop) == SparseCholesky::Outcome::NotPositiveDefinite) {
     constexpr double mostContrast = 1e9; // that the equations bear
-    const Conductivity& k = state.conductivity;
-    const double contrast = k.uneven() ? std::exp(2 * k.half(k.pressures_MPa.maxCoeff())) : 1;
+    const FieldConductivity& k = state.conductivity;
+    const double contrast = k.heterogeneous() ? std::exp(2 * k.halfLogConductivity(k.pressures_MPa.maxCoeff())) : 1;
     if (!(contrast < mostContrast))
       throw DesignError("resistance.pressure_law: conductivity under the largest pressure: " +
                         gotExpected(contrast, " times that at rest", "up to some 1e9 times"));
@@ -180,17 +180,19 @@ std::unique_ptr<DeformedGreen::System> DeformedGreen::systemAt(const FieldState&
   }
   if (stop.stop_requested()) return {};
   std::vector<Eigen::Matrix3Xd> sources = sources_.at(state.nodes_mm, state.electrodes_mm);
-  const std::vector<double> reaches = reaches_mm(sources);
-  std::vector<AtElectrode> electrodes = atElectrodes(state, functions, reaches, threads);
-  return std::make_unique<System>(System{std::move(functions), std::move(sources), reaches, std::move(electrodes),
+  const std::vector<double> cutoffs = cutoffs_mm(sources);
+  std::vector<AtElectrode> electrodes = atElectrodes(state, functions, cutoffs, threads);
+  return std::make_unique<System>(System{std::move(functions), std::move(sources), cutoffs, std::move(electrodes),
                                          std::move(values.volumes), std::move(factor)});
 }
 
-/// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `evenly` times volumes.
+/// Right sides b of w are - oint s_q,n N_a - mean(N_a), or as k has it: rows of `boundary` less `netCurrent` times
+/// volumes.
 struct DeformedGreen::SourceIntegrals {
   BoundaryIntegrals::Result boundary;
   const std::vector<int>* functions; ///< of its rows
-  Eigen::RowVectorXd evenly;         ///< the sources' whole current, but for quadrature, taken up over the volume
+  Eigen::RowVectorXd
+      netCurrent; ///< the sources' total current, including the quadrature error, absorbed uniformly over the volume
 };
 
 DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state, const System& system, int threads,
@@ -200,10 +202,10 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
                          {}};
   if (stop.stop_requested()) return result; // without the rows that are not of the boundary
   SourceRows& right = result.boundary.right;
-  if (state.conductivity.uneven()) {
+  if (state.conductivity.heterogeneous()) {
     Eigen::MatrixXd& products = result.boundary.products;
-    UnevenConductivity(mesh_, state.nodes_mm, system.functions, threads)
-        .addIntegrals(system.sources, system.electrodes, system.reaches_mm, threads, stop, right, products);
+    HeterogeneousConductivity(mesh_, state.nodes_mm, system.functions, threads)
+        .addIntegrals(system.sources, system.electrodes, system.cutoffs_mm, threads, stop, right, products);
     const Eigen::Index count = right.cols();
     Eigen::VectorXd inverse(count);
     for (int p = 0; p < count; ++p) inverse(p) = std::exp(-system.electrodes[std::size_t(p)].value);
@@ -211,7 +213,7 @@ DeformedGreen::SourceIntegrals DeformedGreen::integrals(const FieldState& state,
     products = (inverse.asDiagonal() * products * inverse.asDiagonal()).eval();
   }
   const Eigen::Index nodes = std::min<Eigen::Index>(right.rows(), mesh_.nodes()); // whose functions' sum is 1
-  result.evenly = right.topRows(nodes).colwise().sum() / system.volumes.head(mesh_.nodes()).sum();
+  result.netCurrent = right.topRows(nodes).colwise().sum() / system.volumes.head(mesh_.nodes()).sum();
   return result;
 }
 
@@ -244,7 +246,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   const std::unique_ptr<System> system = systemAt(state, threads, stop);
   if (!system) return {};
   const auto count = static_cast<int>(state.electrodes_mm.cols());
-  const int batches = (count + batchLanes - 1) / batchLanes;
+  const int batches = (count + batchColumns - 1) / batchColumns;
   SourceIntegrals integral = integrals(state, *system, threads, stop);
   const SourceRows& right = integral.boundary.right;
   const std::vector<int>& rows = *integral.functions;
@@ -259,16 +261,16 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   SourceRows first = std::move(integral.boundary.potentials); // w1 + s: - oint I s_p s_q,n is of the same kind
   if (first.size() == 0) first = SourceRows::Zero(right.rows(), count);
   const std::size_t numbers = std::size_t(functions) * std::size_t(count);
-  UnsetArray<float> left(numbers), field(numbers); // r, w
-  Eigen::VectorXd overVolume(count);               // of w1
+  UnsetArray<float> residual(numbers), field(numbers); // r, w
+  Eigen::VectorXd overVolume(count);                   // of w1
   forChunks(batches, 1, threads, [&](int b, int) {
     if (stop.stop_requested()) return;
-    const int from = b * batchLanes, some = std::min(batchLanes, count - from);
+    const int from = b * batchColumns, some = std::min(batchColumns, count - from);
     LaneSides sides(functions - 1, 1); // node 0's equation follows from the others
     LaneSides::Lanes b32 = sides.lanes(sides.right), w1 = sides.lanes(sides.first), w = sides.lanes(sides.x);
-    Eigen::Matrix<double, 1, batchLanes> evenly = Eigen::Matrix<double, 1, batchLanes>::Zero();
-    evenly.head(some) = integral.evenly.segment(from, some);
-    b32.noalias() = -system->volumes * evenly;
+    Eigen::Matrix<double, 1, batchColumns> netCurrent = Eigen::Matrix<double, 1, batchColumns>::Zero();
+    netCurrent.head(some) = integral.netCurrent.segment(from, some);
+    b32.noalias() = -system->volumes * netCurrent;
     for (std::size_t i = 0; i < rows.size(); ++i)
       b32.row(rows[i]).head(some) += right.row(Eigen::Index(i)).segment(from, some);
     system->factor.solve(sides, stop);
@@ -277,7 +279,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
     overVolume.segment(from, some) = (w1.transpose() * system->volumes).head(some);
     for (int n = 0; n < functions; ++n)
       for (int k = 0; k < some; ++k) {
-        left.data()[std::size_t(n) * count + from + k] = static_cast<float>(b32(n, k));
+        residual.data()[std::size_t(n) * count + from + k] = static_cast<float>(b32(n, k));
         field.data()[std::size_t(n) * count + from + k] = static_cast<float>(w(n, k));
       }
     for (std::size_t p = 0; p < slopes.size(); ++p)
@@ -288,30 +290,31 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
   });
   if (stop.stop_requested()) return {};
 
-  // Rows p <= q, by whole batches.
+  // Rows p <= q, by complete batches.
   green.value = std::move(integral.boundary.products);
-  Eigen::MatrixXf little(count, count); // r . w
+  Eigen::MatrixXf correction(count, count); // r . w
   forChunks(batches, 1, threads, [&](int task, int) {
     if (stop.stop_requested()) return;
-    const int from = (batches - 1 - task) * batchLanes, some = std::min(batchLanes, count - from);
+    const int from = (batches - 1 - task) * batchColumns, some = std::min(batchColumns, count - from);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, static_cast<int>(right.rows()), 1,
                 first.data(), count, right.data() + from, count, 1, green.value.col(from).data(), count);
-    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, functions, 1, left.data(), count,
-                field.data() + from, count, 0, little.col(from).data(), count);
+    cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, from + some, some, functions, 1, residual.data(), count,
+                field.data() + from, count, 0, correction.col(from).data(), count);
     for (int q = from; q < from + some; ++q)
       green.value.col(q).head(from + some) +=
-          little.col(q).head(from + some).cast<double>() - integral.evenly(q) * overVolume.head(from + some);
+          correction.col(q).head(from + some).cast<double>() - integral.netCurrent(q) * overVolume.head(from + some);
   });
   if (stop.stop_requested()) return {};
 
-  const std::vector<AtElectrode>& half = system->electrodes;
-  const bool uneven = state.conductivity.uneven();
+  const std::vector<AtElectrode>& atElectrode = system->electrodes;
+  const bool heterogeneous = state.conductivity.heterogeneous();
   forChunks(count, 8, threads, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       for (int q = 0; q < count; ++q) {
         const Eigen::Matrix3Xd& of = system->sources[std::size_t(q)];
         const double scale =
-            uneven ? kFourPi * std::exp(half[std::size_t(p)].value + half[std::size_t(q)].value) : kFourPi;
+            heterogeneous ? kFourPi * std::exp(atElectrode[std::size_t(p)].value + atElectrode[std::size_t(q)].value)
+                          : kFourPi;
         for (Eigen::Index m = p == q ? 1 : 0; m < of.cols(); ++m) {
           const Eigen::Vector3d d = state.electrodes_mm.col(p) - of.col(m);
           const double inverse = 1 / d.norm();
@@ -319,7 +322,7 @@ std::optional<BoxGreen> DeformedGreen::at(const FieldState& state, int threads, 
           for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<Eigen::Index>(i);
             green.slope[i](p, q) -= d(axis) * inverse * inverse * inverse / scale;
-            if (uneven) green.slope[i](p, q) -= half[std::size_t(p)].slope(axis) * inverse / scale;
+            if (heterogeneous) green.slope[i](p, q) -= atElectrode[std::size_t(p)].slope(axis) * inverse / scale;
           }
         }
       }
@@ -339,7 +342,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   LaneSides sides(static_cast<int>(system->volumes.size()) - 1, 1);
   LaneSides::Lanes right = sides.lanes(sides.right);
   right.setZero();
-  right.col(0) = -integral.evenly.dot(currents) * system->volumes;
+  right.col(0) = -integral.netCurrent.dot(currents) * system->volumes;
   right(*integral.functions, 0) += integral.boundary.right * currents;
   system->factor.solve(sides, stop);
   if (stop.stop_requested()) return {};
@@ -348,7 +351,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   NodalPotential result{field.head(mesh_.nodes()), Eigen::Matrix3Xd::Zero(3, mesh_.nodes()),
                         Eigen::VectorXd::Zero(currents.size())};
   Eigen::VectorXd elementsAround = Eigen::VectorXd::Zero(mesh_.nodes());
-  const Conductivity& k = state.conductivity;
+  const FieldConductivity& k = state.conductivity;
   for (int e = 0; e < mesh_.elements(); ++e) {
     const auto nodes = mesh_.tets().elements.col(e);
     Eigen::Matrix<double, FieldFunctions::most, 1> values = Eigen::Matrix<double, FieldFunctions::most, 1>::Zero();
@@ -361,7 +364,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
   result.gradient.array().rowwise() /= elementsAround.transpose().array();
 
   // The sources' part s_q / (m m_q); within a sphere its own is that on its surface. `l` and its `slope` at the point.
-  const std::vector<AtElectrode>& half = system->electrodes;
+  const std::vector<AtElectrode>& atElectrode = system->electrodes;
   const auto addSources = [&](const Eigen::Vector3d& point, double l, const Eigen::Vector3d& slope, double& value,
                               Eigen::Vector3d* gradient) {
     const double root = std::exp(-l);
@@ -371,7 +374,7 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
         const Eigen::Vector3d d = point - of.col(m);
         const double r = d.norm();
         const bool inside = r < state.radius_mm;
-        const double atSource = std::exp(-half[std::size_t(q)].value);
+        const double atSource = std::exp(-atElectrode[std::size_t(q)].value);
         const double own = (inside ? atSource : root) * atSource * currents(q) / kFourPi;
         value += own / (inside ? state.radius_mm : r);
         if (gradient && !inside) *gradient -= own / r * (d / (r * r) + slope);
@@ -383,9 +386,9 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
     if (stop.stop_requested()) return;
     for (int n = begin; n < end; ++n) {
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-      const double pressure = k.uneven() ? k.pressures_MPa(n) : 0;
-      addSources(state.nodes_mm.col(n), k.half(pressure), k.halfByPressure(pressure) * pressureSlopes.col(n),
-                 result.value(n), &gradient);
+      const double pressure = k.heterogeneous() ? k.pressures_MPa(n) : 0;
+      addSources(state.nodes_mm.col(n), k.halfLogConductivity(pressure),
+                 k.halfLogConductivitySlope(pressure) * pressureSlopes.col(n), result.value(n), &gradient);
       result.gradient.col(n) += gradient;
     }
   });
@@ -396,8 +399,8 @@ std::optional<NodalPotential> DeformedGreen::potential(const FieldState& state, 
     const FieldFunctions::Point there = functions.at(place.element, place.barycentric);
     for (int f = 0; f < functions.count(place.element); ++f)
       result.electrodes(p) += there.values(f) * field(functions.row(f, place.element));
-    addSources(state.electrodes_mm.col(p), half[std::size_t(p)].value, half[std::size_t(p)].slope, result.electrodes(p),
-               nullptr);
+    addSources(state.electrodes_mm.col(p), atElectrode[std::size_t(p)].value, atElectrode[std::size_t(p)].slope,
+               result.electrodes(p), nullptr);
   }
   return result;
 }

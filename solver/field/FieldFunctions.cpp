@@ -15,19 +15,19 @@ namespace {
 
 using AtNodes = Eigen::Matrix<double, 10, 1>;
 
-AtNodes inverseRoots(const Conductivity& conductivity, const AtNodes& pressures) {
-  return pressures.unaryExpr([&](double p) { return std::exp(-conductivity.half(p)); });
+AtNodes inverseRoots(const FieldConductivity& conductivity, const AtNodes& pressures) {
+  return pressures.unaryExpr([&](double p) { return std::exp(-conductivity.halfLogConductivity(p)); });
 }
 
 /// Whether 1/m is other than quadratic. Smaller functions add no more than what they make better where k is even, which
 /// the mesh at rest has without them: 1e-5 of ln R by virtual ground, however weak the law is.
-bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
+bool isRoughInside(const FieldConductivity& conductivity, const AtNodes& pressures) {
   constexpr double least = 1e-3;
   if (!(pressures.array() > 0).any()) return false;
   const AtNodes roots = inverseRoots(conductivity, pressures);
   for (const Eigen::Vector4d& point : tetRule().barycentric) {
     const AtNodes shapes = tetShapes(point);
-    const double root = std::exp(-conductivity.half(shapes.dot(pressures)));
+    const double root = std::exp(-conductivity.halfLogConductivity(shapes.dot(pressures)));
     if (std::abs(shapes.dot(roots) - root) > least * root) return true;
   }
   return false;
@@ -35,9 +35,9 @@ bool isRoughInside(const Conductivity& conductivity, const AtNodes& pressures) {
 
 } // namespace
 
-FieldFunctions::FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads)
+FieldFunctions::FieldFunctions(const FieldMesh& mesh, FieldConductivity conductivity, int threads)
     : mesh_(&mesh), conductivity_(std::move(conductivity)) {
-  if (!conductivity_.uneven()) return;
+  if (!conductivity_.heterogeneous()) return;
   const Eigen::MatrixXi& elements = mesh.tets().elements;
   std::vector<char> roughInside(std::size_t(mesh.elements()));
   inParallel(roughInside.size(), threads, [&](std::size_t e) {
@@ -70,16 +70,17 @@ FieldFunctions::Point FieldFunctions::at(int element, const Eigen::Vector4d& bar
   if (count(element) == 10) return point;
   const AtNodes pressures = conductivity_.pressures_MPa(mesh_->tets().elements.col(element));
   const AtNodes roots = inverseRoots(conductivity_, pressures);
-  const double pressure = shapes.dot(pressures), root = std::exp(-conductivity_.half(pressure));
-  const double left = shapes.dot(roots) - root;
-  const Eigen::RowVector3d slope = roots.transpose() * gradients +
-                                   root * conductivity_.halfByPressure(pressure) * (pressures.transpose() * gradients);
+  const double pressure = shapes.dot(pressures), root = std::exp(-conductivity_.halfLogConductivity(pressure));
+  const double remainder = shapes.dot(roots) - root;
+  const Eigen::RowVector3d slope =
+      roots.transpose() * gradients +
+      root * conductivity_.halfLogConductivitySlope(pressure) * (pressures.transpose() * gradients);
   for (int corner = 0; corner < 4; ++corner) {
     if (!isRough(mesh_->tets().elements(corner, element))) continue;
-    point.values(10 + corner) = barycentric(corner) * left;
+    point.values(10 + corner) = barycentric(corner) * remainder;
     Eigen::RowVector3d own = Eigen::RowVector3d::Constant(corner == 0 ? -1 : 0);
     if (corner > 0) own(corner - 1) = 1;
-    point.gradients.row(10 + corner) = left * own + barycentric(corner) * slope;
+    point.gradients.row(10 + corner) = remainder * own + barycentric(corner) * slope;
   }
   return point;
 }

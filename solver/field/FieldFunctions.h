@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/field/Conductivity.h"
+#include "solver/field/FieldConductivity.h"
 #include "solver/field/FieldMesh.h"
 
 #include <Eigen/Core>
@@ -20,9 +20,9 @@ class FieldFunctions {
 public:
   static constexpr int most = 14; ///< in an element
 
-  FieldFunctions(const FieldMesh& mesh, Conductivity conductivity, int threads);
+  FieldFunctions(const FieldMesh& mesh, FieldConductivity conductivity, int threads);
 
-  [[nodiscard]] const Conductivity& conductivity() const { return conductivity_; }
+  [[nodiscard]] const FieldConductivity& conductivity() const { return conductivity_; }
   /// Whether a corner has its function: where 1/m is other than quadratic, by 1e-3 at least, in an element around it.
   /// In those others around it the function is as it comes out, as it has to be the same on both sides of a face.
   [[nodiscard]] bool isRough(int corner) const { return !rough_.empty() && rough_[std::size_t(corner)]; }
@@ -41,7 +41,7 @@ public:
 
 private:
   const FieldMesh* mesh_;
-  Conductivity conductivity_;
+  FieldConductivity conductivity_;
   std::vector<bool> rough_; ///< by corners; empty: none is
 };
 

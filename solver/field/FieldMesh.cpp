@@ -98,11 +98,19 @@ void FieldMesh::findFaces() {
     }
   std::sort(all.begin(), all.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
   std::vector<Face> outer;
+  neighbours_ = Eigen::MatrixXi::Constant(4, elements(), -1);
+  const auto behind = [&](const Face& face) -> int& {
+    const int* side = kSides[face.side];
+    return neighbours_(6 - side[0] - side[1] - side[2], face.element);
+  };
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (i + 1 < all.size() && all[i].key == all[i + 1].key)
+    if (i + 1 < all.size() && all[i].key == all[i + 1].key) {
+      behind(all[i]) = all[i + 1].element;
+      behind(all[i + 1]) = all[i].element;
       ++i;
-    else
+    } else {
       outer.push_back(all[i]);
+    }
   faces_.resize(6, static_cast<Eigen::Index>(outer.size()));
   for (std::size_t f = 0; f < outer.size(); ++f)
     for (int k = 0; k < 3; ++k) {

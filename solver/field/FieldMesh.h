@@ -29,6 +29,8 @@ public:
   /// Nodes of the faces on the boundary, 6 x faces: three corners, counter-clockwise from outside, and the middles of
   /// the edges from each to the next.
   [[nodiscard]] const Eigen::MatrixXi& faces() const { return faces_; }
+  /// 4 x elements: the element behind the face opposite to each corner; -1: none.
+  [[nodiscard]] const Eigen::MatrixXi& neighbours() const { return neighbours_; }
   /// Values at the solver's nodes (columns) taken over to all nodes.
   [[nodiscard]] Eigen::MatrixXd atNodes(const Eigen::Ref<const Eigen::MatrixXd>& solverNodes) const;
 
@@ -38,7 +40,7 @@ private:
 
   Mesh tets_;
   Eigen::MatrixXi cornersAround_; ///< up to 8 of the solver's nodes whose mean a node is, else -1; none: the same nodes
-  Eigen::MatrixXi faces_;
+  Eigen::MatrixXi faces_, neighbours_;
   int corners_ = 0;
 };
 

@@ -8,8 +8,8 @@ namespace palp {
 namespace {
 
 constexpr int keptStates = 3;
-/// To be fitted, of degrees 2, 3, 4 with 9, 19, 34 terms. On forces that were left out a cubic of 20 states has at most
-/// twice the error of one of 25; the fourth degree is asked for by a pressure law's kink, which wants more.
+/// States fitted for degrees 2, 3, 4 with 9, 19, 34 terms. On held-out forces a cubic fitted to 20 states has at most
+/// twice the error of one fitted to 25; a pressure law's kink needs the fourth degree, and more states.
 constexpr std::array<int, 3> fittedStates{12, 20, 45};
 
 } // namespace

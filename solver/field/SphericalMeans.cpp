@@ -4,12 +4,10 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 namespace palp {
 
@@ -57,31 +55,6 @@ const SphereRule& sphereRule() {
 
 } // namespace
 
-SphericalMeans::SphericalMeans(const FieldMesh& mesh)
-    : mesh_(&mesh), across_(Eigen::MatrixXi::Constant(4, mesh.elements(), -1)) {
-  struct Face {
-    std::array<int, 3> corners; ///< ascending
-    int element, opposite;
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * std::size_t(mesh.elements()));
-  for (int e = 0; e < mesh.elements(); ++e)
-    for (int corner = 0; corner < 4; ++corner) {
-      Face face{{}, e, corner};
-      for (int k = 0, i = 0; k < 4; ++k)
-        if (k != corner) face.corners[std::size_t(i++)] = mesh.tets().elements(k, e);
-      std::sort(face.corners.begin(), face.corners.end());
-      faces.push_back(face);
-    }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.corners < b.corners; });
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    const Face &a = faces[i - 1], &b = faces[i];
-    if (a.corners != b.corners) continue;
-    across_(a.opposite, a.element) = b.element;
-    across_(b.opposite, b.element) = a.element;
-  }
-}
-
 /// Through the face that the point lies behind most, until it is behind none or the block ends.
 SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int from) const {
   constexpr int mostSteps = 100;
@@ -95,7 +68,7 @@ SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int
     place.barycentric(0) += 1;
     Eigen::Index behind = 0;
     if (place.barycentric.minCoeff(&behind) > outside) break;
-    const int next = across_(behind, place.element);
+    const int next = mesh_->neighbours()(behind, place.element);
     if (next < 0) break;
     place.element = next;
   }
@@ -105,7 +78,7 @@ SphericalMeans::Place SphericalMeans::find(const Eigen::Vector3d& atRest_mm, int
 AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const FieldFunctions& functions,
                                    const Electrode& electrode) const {
   const Mesh& tets = mesh_->tets();
-  const Conductivity& conductivity = functions.conductivity();
+  const FieldConductivity& conductivity = functions.conductivity();
   const SphereRule& rule = sphereRule();
   const auto own = tets.elements.col(electrode.element);
   AtElectrode result;
@@ -130,18 +103,19 @@ AtElectrode SphericalMeans::around(const Eigen::Matrix3Xd& nodes_mm, const Field
       there += back * (electrode.point_mm + from - nodes_mm(Eigen::all, tets.elements.col(place.element)) * shapesAt());
       place = find(there, place.element);
       element = place.element;
-      values(i) = conductivity.half(shapesAt().dot(conductivity.pressures_MPa(tets.elements.col(element))));
+      values(i) =
+          conductivity.halfLogConductivity(shapesAt().dot(conductivity.pressures_MPa(tets.elements.col(element))));
     }
     return values;
   };
-  const double a = electrode.radius_mm, span = std::log(electrode.reach_mm / a);
+  const double a = electrode.radius_mm, span = std::log(electrode.cutoff_mm / a);
   const Eigen::Matrix<double, SphereRule::points, 1> surface = onSphere(a).cwiseProduct(rule.weights);
   result.value = surface.sum();
   result.slope = 3 / a * (rule.directions * surface);
   if (!(span > 0)) return result;
   for (const auto& [share, weight] : kRadii) { // over ln r
     const double r = a * std::exp(span * share), more = onSphere(r).dot(rule.weights) - result.value;
-    const double square = std::pow(r / electrode.reach_mm, 2), fall = 4 * square * (1 - square); // - r chi'
+    const double square = std::pow(r / electrode.cutoff_mm, 2), fall = 4 * square * (1 - square); // - r chi'
     result.simple -= weight * span * more * fall;
     result.square -= weight * span * more * (AtElectrode::cutOff(square) + fall) / (2 * std::numbers::pi * r);
   }

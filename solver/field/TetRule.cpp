@@ -105,7 +105,7 @@ bool changesSign(const Eigen::Ref<const Eigen::VectorXd>& values) {
 
 } // namespace
 
-std::vector<TetPoint> tetPointsBesideKink(const Eigen::Matrix<double, 10, 1>& values) {
+std::vector<TetPoint> tetPointsAroundKink(const Eigen::Matrix<double, 10, 1>& values) {
   std::vector<TetPoint> points;
   if (changesSign(values.head<4>())) {
     addCut({tetNode(0), tetNode(1), tetNode(2), tetNode(3)}, values.head<4>(), points);

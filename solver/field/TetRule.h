@@ -23,7 +23,7 @@ const TetRule& tetRule();
 /// Derivatives of the quadratic shape functions by the last three barycentric coordinates.
 Eigen::Matrix<double, 10, 3> tetLocalGradients(const Eigen::Vector4d& barycentric);
 
-/// A point of a quadrature, and the share of the tetrahedron's volume that it stands for.
+/// A point of a quadrature, and its weight as a share of the tetrahedron's volume.
 struct TetPoint {
   Eigen::Vector4d barycentric;
   double weight = 0;
@@ -34,6 +34,6 @@ struct TetPoint {
 /// 0, and each piece has four points, exact to degree 2, or if it is larger than a tenth those of tetRule. Where only
 /// nodes between corners have the other sign, its eighths are cut so. (The leading error of a rule that steps over a
 /// jump is of first order in the mesh size.)
-std::vector<TetPoint> tetPointsBesideKink(const Eigen::Matrix<double, 10, 1>& values);
+std::vector<TetPoint> tetPointsAroundKink(const Eigen::Matrix<double, 10, 1>& values);
 
 } // namespace palp

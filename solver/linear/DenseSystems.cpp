@@ -18,10 +18,10 @@ namespace palp {
 
 namespace {
 
-constexpr int kWholeBelow = 768; // so many rows take less than 0.1 s
+constexpr int kWholeBelow = 768; // rows that take less than 0.1 s
 constexpr int kColumnsAtOnce = 192;
 
-/// As dgetrf, from the left to the right. False: singular, or stopped.
+/// As dgetrf, from the left to the right. Returns false if singular or cancelled.
 bool factoriseByPanels(double* a, int n, std::vector<int>& pivots, const std::stop_token& stop) {
   const auto at = [&](int row, int column) { return a + std::size_t(column) * std::size_t(n) + row; };
   const int one = 1;

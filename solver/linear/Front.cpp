@@ -62,7 +62,7 @@ void updateTileInSingle(const float* rows, int m, const float* columns, int n, i
 /// is C's column, addressed by rows, and `strideOf` the distance to the next.
 template <class ColumnOf, class StrideOf>
 bool subtractProduct(const double* L, int height, int width, int depth, int stride, const ColumnOf& columnOf,
-                     const StrideOf& strideOf, double beta, Products products, const TaskRunner& run) {
+                     const StrideOf& strideOf, double beta, UpdatePrecision products, const TaskRunner& run) {
   struct Task {
     int row, rows, column, columns;
   };
@@ -72,7 +72,7 @@ bool subtractProduct(const double* L, int height, int width, int depth, int stri
     for (int r = c; r < height; r += 4 * tile) tasks.push_back({r, std::min(4 * tile, height - r), c, columns});
   }
   const double flops = double(height) * width * depth;
-  if (products == Products::Single && depth >= worthConverting) {
+  if (products == UpdatePrecision::Single && depth >= worthConverting) {
     UnsetArray<float> copy(std::size_t(height) * depth);
     const bool copied = run(depth, double(height) * depth, [&](int c) {
       std::copy_n(L + std::size_t(c) * stride, height, copy.data() + std::size_t(c) * height);
@@ -110,7 +110,7 @@ void UpdateMatrix::forgetBefore(int j) {
 
 // Right-looking, a tile of columns at a time: L11 of the tile by dpotrf, the rows below it by dtrsm, and what the tile
 // takes from the panel's remaining columns by dsyrk and dgemm; U after the last tile.
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, Products products,
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, UpdatePrecision products,
                             const TaskRunner& run) {
   for (int k = 0; k < width; k += tile) {
     const int depth = std::min(tile, width - k), below = height - k - depth;

@@ -21,14 +21,13 @@ public:
   explicit UpdateMatrix(int size);
 
   [[nodiscard]] int size() const { return size_; }
-  /// Column j, to be indexed by the triangle's rows; the rows above its block are not there.
+  /// Column j, to be indexed by the triangle's rows; the rows above its block are not stored.
   [[nodiscard]] double* column(int j) { return values_.data() + start(j); }
   [[nodiscard]] const double* column(int j) const { return values_.data() + start(j); }
   /// From one column of j's block to the next.
   [[nodiscard]] int stride(int j) const { return size_ - j / frontTile * frontTile; }
 
-  /// Gives back the memory of the columns before column j, as far as the system takes it: they are not to be read any
-  /// more.
+  /// Releases the memory of the columns before column j where possible; they must not be read any more.
   void forgetBefore(int j);
 
 private:
@@ -38,8 +37,8 @@ private:
   UnsetArray<double> values_;
 };
 
-/// In which precision what eliminated unknowns take from the others is found; it is subtracted in double.
-enum class Products { Double, Single };
+/// Precision in which the update of the remaining unknowns is computed; it is subtracted in double.
+enum class UpdatePrecision { Double, Single };
 
 enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };
 
@@ -47,10 +46,10 @@ enum class FrontOutcome { Done, NotPositiveDefinite, Stopped };
 ///   [A11     ]   [L11  ] [I   ] [L11^T L21^T]
 ///   [A21   0 ] = [L21 I] [   U] [        I  ] ,   A11 = L11 L11^T,  L21 = A21 L11^-T,  U = -L21 L21^T.
 /// The panel, A11 above A21 (height x width), becomes L11 above L21; the update becomes U.
-FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, Products products,
+FrontOutcome factoriseFront(double* panel, int height, int width, UpdateMatrix& update, UpdatePrecision products,
                             const TaskRunner& run);
 
-/// BLAS at one thread from here on: how its sums are cut depends on the number of threads.
+/// Sets BLAS to one thread from here on: the order of its sums depends on the number of threads.
 void useOneBlasThread();
 
 } // namespace palp

@@ -41,8 +41,8 @@ Eigen::MatrixXd SparseCholesky::inverseOfLast(const std::stop_token& stop) const
   return inverse;
 }
 
-// With L the factor's last rows and y the right side's part there after the way forward, the unknowns move by
-// L^-T y; forces f on them are L^-1 f in y.
+// With L the factor's last rows and y the right-hand side's part there after the forward sweep, the unknowns' motion is
+// L^-T y; forces f on them add L^-1 f to y.
 void SparseCholesky::solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop) const {
   const std::vector<int> rows = rowsOfLast();
   const auto lower = lastRows_.triangularView<Eigen::Lower>();

@@ -10,9 +10,9 @@ namespace palp {
 
 namespace {
 
-constexpr int leaf = 6; // so many groups are not cut any further
+constexpr int leaf = 6; // number of groups that are not cut any further
 constexpr double samePlane = 1e-9;
-constexpr double dislikeOfUnequalHalves = 3;
+constexpr double imbalanceExponent = 3;
 
 /// Across these directions, in numbers of planes along the axes, a tetrahedral grid's cuts are smallest: its triangles
 /// lie along the axes' planes and along their diagonals.
@@ -115,7 +115,7 @@ private:
       const double lower = below - cut, upper = double(groups.size()) - below;
       if (lower <= 0 || upper <= 0) continue;
       const double equality = 4 * lower * upper / ((lower + upper) * (lower + upper));
-      const double cost = cut / std::pow(equality, dislikeOfUnequalHalves);
+      const double cost = cut / std::pow(equality, imbalanceExponent);
       if (best.direction < 0 || cost < best.cost) best = {direction, first + p, cost};
     }
     return best;

@@ -21,8 +21,8 @@ double work(const SupernodeTree& tree, int s) {
   return double(tree.width(s)) * tree.height(s) * tree.height(s);
 }
 
-// A child's rows below are a subset of its parent's rows. Both are ascending, so the subset falls into runs that stand
-// together in both, and a run is added without looking at row numbers:
+// A child's rows below are a subset of its parent's rows. Both are ascending, so the subset consists of runs that are
+// contiguous in both, and a run is added without looking at row numbers:
 //
 //   row of the factor   40 41 42 43 44 45 46 | 60 70 90 91     the parent's own | below
 //   parent's rows        0  1  2  3  4  5  6 |  7  8  9 10
@@ -34,7 +34,7 @@ struct Run {
   int from, to, length;
 };
 
-/// Where the rows below supernode s stand among its parent's rows.
+/// Positions of the rows below supernode s among its parent's rows.
 std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
   const int parent = tree.parent[s], below = tree.below(s);
   const int* rows = tree.rowsOf(s) + tree.width(s);
@@ -42,8 +42,8 @@ std::vector<Run> runsInParent(const SupernodeTree& tree, int s) {
   std::vector<Run> runs;
   for (int i = 0, p = 0; i < below; ++i, ++p) {
     while (parentRows[p] != rows[i]) ++p;
-    const bool goesOn = !runs.empty() && runs.back().to + runs.back().length == p && p != tree.width(parent);
-    if (goesOn)
+    const bool continues = !runs.empty() && runs.back().to + runs.back().length == p && p != tree.width(parent);
+    if (continues)
       ++runs.back().length;
     else
       runs.push_back({i, p, 1});
@@ -243,7 +243,7 @@ namespace {
 class Multifrontal {
 public:
   Multifrontal(const CholeskyPlan& plan, std::span<const double> values, float* factor, Eigen::MatrixXd& lastRows,
-               Products products)
+               UpdatePrecision products)
       : plan_(plan), tree_(plan.tree()), values_(values), factor_(factor), lastRows_(lastRows), products_(products),
         updates_(tree_.count()) {}
 
@@ -289,7 +289,7 @@ private:
     return std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return r.to >= width; }) - runs.begin();
   }
 
-  /// What stands in a factorised panel of the last groups' columns.
+  /// Keeps the last groups' columns of a factorised panel.
   void keepLastRows(int s, const double* panel) {
     const int start = tree_.size() - plan_.lastUnknowns(), height = tree_.height(s);
     for (int c = std::max(0, start - tree_.first[s]); c < tree_.width(s); ++c)
@@ -302,14 +302,14 @@ private:
   std::span<const double> values_;
   float* factor_;
   Eigen::MatrixXd& lastRows_;
-  Products products_;
+  UpdatePrecision products_;
   std::vector<UpdateMatrix> updates_;
 };
 
 } // namespace
 
 SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop,
-                                                  Products products) {
+                                                  UpdatePrecision products) {
   useOneBlasThread();
   matrix_ = std::move(values);
   lastRows_.setZero(plan_->lastUnknowns(), plan_->lastUnknowns());
@@ -358,7 +358,7 @@ void SparseCholesky::solve(Eigen::VectorXd& rightSide, const std::stop_token& st
   rightSide += x;
 }
 
-/// `onLast` may change the last groups' rows between the way forward and the way back.
+/// `onLast` may change the last groups' rows between the forward and the backward sweep.
 void SparseCholesky::substitute(Eigen::VectorXd& x, const std::stop_token& stop,
                                 const std::function<void(Eigen::Ref<Eigen::VectorXd>)>& onLast) const {
   const SupernodeTree& tree = plan_->tree();

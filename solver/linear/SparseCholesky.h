@@ -15,8 +15,8 @@
 
 namespace palp {
 
-/// What a factorisation needs to know of a pattern, found once: where the entries go and how the work is cut into
-/// tasks. The cut does not depend on the number of threads.
+/// The symbolic factorisation of a pattern, computed once: positions of the entries in the panels, and the tasks. The
+/// tasks do not depend on the number of threads.
 class CholeskyPlan {
 public:
   explicit CholeskyPlan(std::shared_ptr<const SparsePattern> pattern);
@@ -65,48 +65,55 @@ private:
   std::vector<int> blockRows_;  ///< rows of the factor in those blocks
 };
 
-/// Right sides that are solved together, one a lane: [held + unknowns][batchLanes] each, of which the first rows are
-/// held at 0 and have no unknown.
+/// Right-hand sides that are solved together, one per column: [held + unknowns][batchColumns] each, of which the first
+/// `held` rows are fixed at 0 and have no unknown.
 struct LaneSides {
   explicit LaneSides(int unknowns, int held = 0);
-  using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchLanes, Eigen::RowMajor>>;
-  [[nodiscard]] Lanes lanes(UnsetArray<double>& of) const { return {of.data(), held + unknowns, batchLanes}; }
+  using Lanes = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, batchColumns, Eigen::RowMajor>>;
+  [[nodiscard]] Lanes lanes(UnsetArray<double>& of) const { return {of.data(), held + unknowns, batchColumns}; }
 
   int unknowns, held;
   UnsetArray<double> right, first, x;
 };
 
 /// Multifrontal Cholesky factorisation on OpenBLAS (Duff and Reid 1983): subtrees in parallel, then the large fronts
-/// at the top tile by tile. Fronts are factorised in double precision (but for the products of large ones, where single
-/// is asked for) and kept in single, in half the memory. The bytes do not depend on the number of threads; a stop
+/// at the top tile by tile. Fronts are factorised in double precision (except for the products of large ones, if single
+/// is requested) and stored in single, in half the memory. The bytes do not depend on the number of threads; a stop
 /// request is honoured between tasks.
+///
+/// Why not CHOLMOD, whose symbolic analysis it uses (SupernodeTree.cpp): half the memory, the same bytes on any number
+/// of threads, stop requests, the exact Schur complement of the last groups (contact), and a single-precision factor
+/// through which 32 right-hand sides pass together (LaneSolve.h). Order of work: CholeskyPlan (once per pattern),
+/// factorise (per matrix), solve. Where to read more: resources/docs/numerics/factorisation.md.
 class SparseCholesky {
 public:
   explicit SparseCholesky(std::shared_ptr<const CholeskyPlan> plan);
 
   enum class Outcome { Done, NotPositiveDefinite, Stopped };
-  /// `values` are those of the pattern's entries. Products::Single is for factors that lead an iteration alone.
+  /// `values` are those of the pattern's entries. UpdatePrecision::Single is for factors that only precondition an
+  /// iteration.
   [[nodiscard]] Outcome factorise(LaneVector values, int threads, const std::stop_token& stop,
-                                  Products products = Products::Double);
-  /// Solves in place, refined once: the factor alone leaves 1e-3 of the right side, at nu = 0.5 a tenth, but next to
-  /// nothing of what it has left. Stopped, it leaves no solution.
+                                  UpdatePrecision products = UpdatePrecision::Double);
+  /// Solves in place with one step of iterative refinement: the factor alone leaves a residual of 1e-3 of the
+  /// right-hand side, at nu = 0.5 of a tenth; refinement removes almost all of it. If cancelled, there is no solution.
   void solve(Eigen::VectorXd& rightSide, const std::stop_token& stop = {}) const;
-  /// Of `right` b: first = K^-1 b by substitution in single precision, which leaves up to 3e-4 of it; `right` becomes
-  /// b - K first; and x is `first` with what a second substitution makes of that: 1e-6 of b is left at nu = 0.5, less
-  /// else. Stopped, it leaves no solution.
+  /// With `right` b: first = K^-1 b by substitution in single precision, with a residual of up to 3e-4 of b; `right`
+  /// becomes that residual b - K first; x is `first` plus the substitution of it, with a residual of 1e-6 of b at
+  /// nu = 0.5, less otherwise. If cancelled, there is no solution.
   void solve(LaneSides& sides, const std::stop_token& stop) const;
-  /// Forces on the unknowns of the pattern's last groups, in the groups' order, by how these move under the right side
-  /// alone.
+  /// Returns the forces on the unknowns of the pattern's last groups, in the groups' order, at their motion under the
+  /// right-hand side alone.
   using Answer = std::function<Eigen::VectorXd(const Eigen::VectorXd& motion)>;
-  /// Adds such forces to the right side on the way and solves in place: all other unknowns are eliminated first, so
-  /// that the answer costs nothing but itself.
+  /// Solves in place with such forces, added between the forward and the backward sweep: all other unknowns are
+  /// eliminated first, so that they cost no further substitution.
   void solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop = {}) const;
 
   /// The inverse matrix between the unknowns of the pattern's last groups, in the groups' order, in double precision:
-  /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1. Empty: stopped.
+  /// of the factor's last rows L, all other unknowns being eliminated, (L L^T)^-1. Empty if cancelled.
   [[nodiscard]] Eigen::MatrixXd inverseOfLast(const std::stop_token& stop = {}) const;
 
-  /// Gives back the matrix and the last rows in double precision: what is left substitutes (blocks) and does not solve.
+  /// Releases the matrix and the last rows in double precision: the factor still substitutes (blocks), but `solve`
+  /// fails.
   void keepFactorAlone() {
     matrix_ = {};
     lastRows_ = {};

@@ -116,7 +116,7 @@ void runUnlessStopped(const std::shared_ptr<Call>& call, const std::stop_token& 
   std::packaged_task<void()> task([call] { call->run(); });
   std::future<void> done = task.get_future();
   std::thread(std::move(task)).detach();
-  while (done.wait_for(lookEvery) != std::future_status::ready) stopIfAsked(stop);
+  while (done.wait_for(lookEvery) != std::future_status::ready) throwIfStopped(stop);
   done.get();
 }
 
@@ -125,7 +125,7 @@ void runUnlessStopped(const std::shared_ptr<Call>& call, const std::stop_token& 
 LinearTets weightedDelaunay(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
                             const std::stop_token& stop) {
   requireSolid(points, weights);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const auto call = std::make_shared<Call>(points, weights);
   if (points.cols() > callsWithoutLooking && stop.stop_possible())
     runUnlessStopped(call, stop);

@@ -29,11 +29,11 @@ constexpr double weightOfOddIndices = 0.05;
 constexpr double furthestMove = 0.35;   // of a cell, from a grid point to the electrode it is moved to
 constexpr double smallestVolume = 0.15; // of a moved simplex, against where it was
 constexpr double thinnestCell = 0.005;  // of the wanted size
-/// Of the sizes at the free edges and at the bottom, where the field feels more of the block: 0.6 to 3.2 % of error in
-/// the lower electrodes' displacements become 0.4 to 0.8 %.
+/// Of the sizes at the free edges and at the bottom, where the field depends on more of the block: 0.6 to 3.2 % of
+/// error in the lower electrodes' displacements become 0.4 to 0.8 %.
 constexpr double finerByFactor = 0.6;
-/// Of the sizes in the bulk and, once more, at the bottom, where a pressure law sees the pressure at electrodes 3 to 6
-/// mm beside the free edges, whose clamped ends' stresses are steep there.
+/// Of the sizes in the bulk and, once more, at the bottom, where a pressure law depends on the pressure at electrodes
+/// 3 to 6 mm from the free edges, whose clamped ends' stresses are steep there.
 constexpr double bulkForPressure = 0.5, bottomForPressure = 0.75;
 constexpr double leastSideInDepths = 3;
 constexpr double mostCellsForNodes = 4; // times the cells before: where electrodes take more they stay inside elements
@@ -169,7 +169,7 @@ public:
   /// None where that takes too many cells or too thin ones.
   std::optional<std::vector<int>> find(const std::stop_token& stop) {
     for (;;) {
-      stopIfAsked(stop);
+      throwIfStopped(stop);
       changed_ = false;
       bringLinesToTheFar();
       if (!failed_ && !changed_) takePoints();

@@ -7,8 +7,8 @@ namespace palp {
 
 namespace {
 
-constexpr int samples = 512;     // of the size along one interval
-constexpr double forgiven = 0.2; // of a cell: an interval of 2.2 cells gets 2
+constexpr int samples = 512;              // of the size along one interval
+constexpr double roundingTolerance = 0.2; // of a cell: an interval of 2.2 cells gets 2
 
 } // namespace
 
@@ -25,7 +25,7 @@ std::vector<double> gridLines(const std::vector<double>& stops, const SizeAlong&
     const double step = (stops[i + 1] - stops[i]) / samples;
     std::vector<double> cells(samples + 1); // cells up to each sample
     for (int k = 0; k < samples; ++k) cells[k + 1] = cells[k] + step / size(stops[i] + (k + 0.5) * step);
-    const int count = std::max(1, static_cast<int>(std::ceil(cells.back() - forgiven)));
+    const int count = std::max(1, static_cast<int>(std::ceil(cells.back() - roundingTolerance)));
     for (int c = 1, k = 0; c < count; ++c) {
       const double wanted = cells.back() * c / count;
       while (cells[k + 1] < wanted) ++k;

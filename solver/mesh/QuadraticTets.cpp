@@ -57,9 +57,9 @@ Eigen::Matrix4Xi turnedPositive(const Eigen::Matrix3Xd& points, Eigen::Matrix4Xi
 
 Mesh quadraticTets(const Eigen::Matrix3Xd& points_mm, const LinearTets& tets, const std::stop_token& stop) {
   const Eigen::Matrix4Xi corners = turnedPositive(points_mm, tets.corners);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const Edges edges(corners, points_mm.cols());
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   Mesh mesh;
   mesh.shape = ElementShape::Tetrahedron10;
   mesh.nodes_mm = edges.withMidpoints(points_mm);

@@ -6,7 +6,7 @@ namespace palp {
 
 namespace {
 
-/// Which of the equal parts of [0, length] holds x; of the whole length, the last one.
+/// Which of the equal parts of [0, length] holds x; of the full length, the last one.
 int partAt(double x, double length, int parts) {
   return std::min(parts - 1, static_cast<int>(x / length * parts));
 }

@@ -2,7 +2,7 @@
 
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
-#include "solver/statics/ProblemParts.h"
+#include "solver/statics/LinearisedBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +20,13 @@ constexpr int lineSearchTrials = 6;
 constexpr int definitenessTrials = 4;
 // Relative residual below which one or two more iterations with the same tangent end it.
 constexpr double keepFactorBelow = 1e-5;
-// So many more iterations with the same tangent cost less than a new one.
+// Number of further iterations with the same tangent that cost less than a new one.
 constexpr double keptIterations = 3;
-// Where that small a residual does not fall any more, it is down to rounding.
+// A residual below this that stagnates is at round-off level.
 constexpr double stallsBelow = 1e-6;
 constexpr int stallsAtRounding = 3;
-// So is any that does not fall where strains are so small that Newton's method has nothing to bend: under 1e-8 N the
-// forces' own rounding is 1e-5 of the load.
+// So is any that stagnates where strains are so small that the problem is linear: below 1e-8 N the forces' own rounding
+// is 1e-5 of the load.
 constexpr double smallStrain = 1e-4;
 
 double smallestElement_mm(const Discretisation& mesh) {
@@ -133,8 +133,8 @@ NewtonSolver::Outcome NewtonSolver::startTangent(const Loading& loading, double 
 }
 
 /// First step of a prescribed motion v: K du = R - K v on the free components, du = v on the others. The motion is
-/// taken whole, as its residual is no measure of overshooting, and the forces that it makes become the scale of
-/// residuals. Ends with a tangent for the next step: going back along this one would take the motion back with it.
+/// applied in full, as its residual does not measure overshooting, and its forces become the scale of residuals. Ends
+/// with a tangent for the next step: going back along this one would undo the motion, too.
 NewtonSolver::Outcome NewtonSolver::movePrescribed(const Loading& loading, double to, const Eigen::VectorXd& motion,
                                                    ElementState& state) {
   if (const Outcome outcome = newTangent(loading, to, state, &motion); outcome != Outcome::Converged) return outcome;
@@ -170,11 +170,11 @@ void NewtonSolver::move(const Direction& direction, ElementState& state) {
 /// Whether a step l du went too far:
 ///   elements are inside out; or
 ///   |R| > |F| and the residual's work along the step did not fall, |R(u + l du) . du| > 0.9 |R(u) . du|; or
-///   |R| grew and so did the way that is left, |K^-1 R(u + l du)| > (1 - l / 4) |du|, K being the tangent of the step
+///   |R| grew and so did the remaining distance, |K^-1 R(u + l du)| > (1 - l / 4) |du|, K being the tangent of the step
 /// (the restricted natural monotonicity test: Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
 /// No step does where the rubber answers linearly all along it.
-/// A residual that grows is no reason by itself: a long good step leaves pressures behind, which the next one mends. A
-/// way that grows is none either: in a tall block it does so on the right path, while the residual falls.
+/// A growing residual alone does not suffice: a long good step leaves wrong pressures, which the next one corrects. Nor
+/// does a growing distance: in a tall block it grows on the right path, while the residual falls.
 bool NewtonSolver::overshot(const Direction& direction) const {
   if (forces_.smallestJ <= 0 || !std::isfinite(relative_)) return true;
   if (largest(direction.start.displacements) + largest(direction.du) < smallMove_mm_) return false;
@@ -198,8 +198,8 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
   return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
 }
 
-/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed. That
-/// begins with half of the whole step, even where less was taken of it: closer to the start lie states about to lose
+/// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed. It
+/// starts with half of the full step, even where less was taken of it: closer to the start are states about to lose
 /// stability, whose steps are huge.
 NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, double fraction, Direction& last,
                                                     ElementState& state) {

@@ -35,12 +35,12 @@ struct NewtonResult {
   double smallestJ = 1, largestJ = 1;       ///< of the last equilibrium
 };
 
-/// The tangent at rest, which is lent to a solve: held, or let go while another takes its place and found again.
+/// The tangent at rest, lent to a solve: kept throughout, or released while another replaces it and computed again.
 class LentTangent {
 public:
   using Find = std::function<std::shared_ptr<const InitialTangent>()>;
   LentTangent() = default;
-  /// Without `findAgain` it is held all the time.
+  /// Without `findAgain` it is kept throughout.
   LentTangent(std::shared_ptr<const InitialTangent> held, Find findAgain)
       : held_(std::move(held)), findAgain_(std::move(findAgain)) {}
 

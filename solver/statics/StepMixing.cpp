@@ -6,7 +6,8 @@ namespace palp {
 
 namespace {
 
-constexpr double leastIndependent = 1e-10; // of the squared changes: keeps shares finite where a direction is no news
+constexpr double leastIndependent =
+    1e-10; // of the squared changes: keeps the coefficients finite where directions are dependent
 
 } // namespace
 

@@ -8,7 +8,7 @@ namespace palp {
 
 namespace {
 
-/// Steps are halved down to some thousandths: what halves and sums of sixths have behind that is no news.
+/// Steps are halved down to some thousandths: further digits of halves and sums of sixths are irrelevant.
 std::string fractionInWords(double load) {
   return text(std::round(1e6 * load) / 1e6);
 }

@@ -7,7 +7,7 @@
 // ours has of its own, once in our order of the unknowns and once in the order it finds itself (AMD, then METIS).
 #include "solver/SensorMesh.h"
 #include "solver/linear/Front.h"
-#include "solver/statics/ProblemParts.h"
+#include "solver/statics/LinearisedBlock.h"
 
 #include <cblas.h>
 #include <cholmod.h>
@@ -50,10 +50,10 @@ struct Tangent {
     MeshOptions options;
     if (matrix == "fine") options.meshSize_mm = 0.6 * standardMeshSize_mm(design);
     const HyperelasticProblem problem(design, sensorMesh(design, options));
-    const Assembler& assembler = problem.parts().assembler;
+    const Assembler& assembler = problem.block().assembler;
     ElementTangents tangents;
     ElementForces forces;
-    assembler.tangent(problem.parts().discretisation->atRest(), tangents, forces, 2, {});
+    assembler.tangent(problem.block().discretisation->atRest(), tangents, forces, 2, {});
     pattern = assembler.pattern();
     values = assembler.matrix(tangents, 2);
   }

@@ -77,7 +77,7 @@ TEST_P(SampleArrays, KeepTwoTouchesAtOnceForWhoAsks) {
   expectSame(loadSamples(file("two"), {}, true), set);
   expectIn(sentenceOf(file("two")), {"got 2 at once", "expected 1"});
   SampleSet wrong = set;
-  wrong.beside(kTouchShape, 2) = 0.5;
+  wrong.secondTouch(kTouchShape, 2) = 0.5;
   saveSamples(file("wrong"), wrong, false);
   expectIn(refusal([&] { loadSamples(file("wrong"), {}, true); }), {"sample 2", "shape: got 0.5"});
 }

@@ -104,10 +104,10 @@ inline Decoder smallDecoder(DecoderKind kind) {
     decoder.areas.reset();
     break;
   case DecoderKind::TouchInversion: {
-    Eigen::MatrixXd causes(7, 12); // forces, a place, a size and a friction
-    causes << samples.forces, samples.inputs.topRows<2>(), samples.inputs.row(2), Eigen::RowVectorXd::Zero(12);
+    Eigen::MatrixXd parameters(7, 12); // forces, a place, a size and a friction
+    parameters << samples.forces, samples.inputs.topRows<2>(), samples.inputs.row(2), Eigen::RowVectorXd::Zero(12);
     const Eigen::VectorXi groups = (Eigen::VectorXi(7) << 1, 1, 1, 0, 0, 2, 2).finished();
-    decoder.model = fitKernelForwardModel(samples.inputs, causes, groups, {1e-4, 1}).model;
+    decoder.model = fitKernelForwardModel(samples.inputs, parameters, groups, {1e-4, 1}).model;
     decoder.place = DecoderPlace{Eigen::Vector2d(98, 98), Eigen::Vector2d(105, 105), Eigen::Vector2d(0.1, 0.2)};
     decoder.touches = "sphere:3..6@3,3,27,27 press 0.5..6";
     decoder.areas.reset();

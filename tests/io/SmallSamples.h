@@ -54,9 +54,9 @@ inline SampleSet randomTouches(Eigen::Index size, unsigned seed) {
 inline SampleSet randomPairs(Eigen::Index size, unsigned seed) {
   SampleSet set = randomTouches(size, seed);
   set.origin.touches = "sphere:3..6@3,3,27,27 at once 2 press 0.5..6";
-  set.beside.resize(kBesideRows, size);
-  set.beside.topRows(kTouchRows) = randomTouches(size, seed + 1).touches;
-  set.beside.bottomRows<3>() = randomSet(size, seed + 1).forces_N;
+  set.secondTouch.resize(kSecondTouchRows, size);
+  set.secondTouch.topRows(kTouchRows) = randomTouches(size, seed + 1).touches;
+  set.secondTouch.bottomRows<3>() = randomSet(size, seed + 1).forces_N;
   return set;
 }
 

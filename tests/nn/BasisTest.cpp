@@ -45,7 +45,7 @@ TEST(Basis, TheRemainderKeepsItsDigitsForSmallArguments) {
 }
 
 TEST(Basis, TheRemainderIsTheSameAloneAndAmongLargeAndSmallOnes) {
-  Eigen::MatrixXd values(203, 1); // whole groups of 64, whole vectors of 8, and a rest
+  Eigen::MatrixXd values(203, 1); // full groups of 64, full vectors of 8, and a remainder
   for (int i = 0; i < values.size(); ++i) values(i) = i < 64 ? i / 64.0 : i < 128 ? i : 0.1 * (i % 23);
   Eigen::MatrixXd together = values;
   basisInPlace(together, 1, BasisForm::Remainder);

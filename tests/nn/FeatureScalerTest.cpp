@@ -37,7 +37,7 @@ TEST(FeatureScaler, AConstantInputIsScaledToZero) {
     EXPECT_EQ(FeatureScaler::fit(scaling, threeRows).apply(threeRows).row(2).cwiseAbs().maxCoeff(), 0) << name(scaling);
 }
 
-/// Inputs around 100: the first two directions stand above the noise of 1e-3, the third is a twentieth of it.
+/// Inputs around 100: the first two directions exceed the noise of 1e-3, the third is a twentieth of it.
 Eigen::MatrixXd threeDirections() {
   Eigen::MatrixXd result(3, 200);
   for (int i = 0; i < 200; ++i) {

@@ -82,7 +82,7 @@ TEST(LeaveOneOut, OfALargerRidgeThanTheNetworksIsNotGivenWithoutAWord) {
     return std::any_of(warnings.begin(), warnings.end(),
                        [](const std::string& text) { return text.find("larger ridge") != std::string::npos; });
   };
-  EXPECT_TRUE(said(1000)); // flat: what is left beside the bias is rounding
+  EXPECT_TRUE(said(1000)); // flat: only rounding remains next to the bias
   EXPECT_FALSE(said(1));
 }
 

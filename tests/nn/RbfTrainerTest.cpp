@@ -5,10 +5,10 @@
 #include "nn/NetworkError.h"
 #include "nn/NoisyCopies.h"
 #include "nn/RbfEvaluator.h"
+#include "nn/baselines/PolynomialRidge.h"
 #include "nn/linear/Lapack.h"
 #include "nn/linear/LinearSolve.h"
 #include "nn/rbf/RbfSystem.h"
-#include "nn/rivals/PolynomialRidge.h"
 #include "tests/nn/Touches.h"
 
 #include <SourceDir.h>
@@ -185,12 +185,12 @@ TEST(RbfTrainer, BadDataAndOptionsAreRefused) {
   EXPECT_THROW(trainRbf(set.samples, set.targets, options), NetworkError);
   EXPECT_THROW(trainRbf(Eigen::MatrixXd(6, 0), Eigen::MatrixXd(3, 0)), NetworkError);
   EXPECT_THROW(trainRbf(set.samples, set.targets.leftCols(3)), NetworkError);
-  EXPECT_THROW(trainRbf(1e101 * set.samples, set.targets), NetworkError); // its squares' sums are no numbers
+  EXPECT_THROW(trainRbf(1e101 * set.samples, set.targets), NetworkError); // the sums of its squares are not finite
   Eigen::MatrixXd broken = set.samples;
   broken(2, 5) = std::nan("");
   try {
     static_cast<void>(trainRbf(broken, set.targets));
-    FAIL() << "a value that is no number was taken";
+    FAIL() << "a value that is not a number was accepted";
   } catch (const NetworkError& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("input 2 of sample 5"), std::string::npos);
   }
@@ -226,7 +226,7 @@ TEST(RbfTrainer, EachLongStepOfANoisyFitStopsWhenAskedTo) {
     EXPECT_THROW(static_cast<void>(problem->solve(1, 1e-6, stop)), Cancelled);
     EXPECT_THROW(solveLeastSquares(set.samples.transpose(), set.targets.transpose(), method, 1e-6, 1e-15, 1, stop),
                  Cancelled);
-    EXPECT_TRUE(problem->solve(1, 1e-6, {}).weights.allFinite()); // the same work, not asked to stop
+    EXPECT_TRUE(problem->solve(1, 1e-6, {}).weights.allFinite()); // the same work without a stop request
   }
 }
 

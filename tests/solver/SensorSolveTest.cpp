@@ -4,7 +4,7 @@
 #include "solver/HyperelasticProblem.h"
 #include "solver/MeshQuality.h"
 #include "solver/SensorMesh.h"
-#include "solver/statics/ProblemParts.h"
+#include "solver/statics/LinearisedBlock.h"
 #include "tests/solver/CoarseSensor.h"
 
 #include <SourceDir.h>
@@ -33,7 +33,7 @@ int mostIterations(const Solution& s) {
 
 /// Smallest volume ratio at the quadrature points of a state.
 double smallestJ(const HyperelasticProblem& problem, const LoadIncrement& increment) {
-  const Assembler& assembler = problem.parts().assembler;
+  const Assembler& assembler = problem.block().assembler;
   const Discretisation& mesh = assembler.discretisation();
   ElementState state = mesh.atRest();
   state.displacements = increment.displacements_mm.reshaped();
@@ -234,7 +234,7 @@ TEST(Sensor, HoldsOneTangentAtATimeWhereItIsAskedToAndSolvesTheSame) {
   const HyperelasticProblem problem = coarse();
   for (const double down_N : {-0.01, -6., -150.}) {
     const LoadCase load = onArea(0, 0, 0, down_N);
-    std::weak_ptr<const InitialTangent> rest = problem.parts().initialTangent(1, {});
+    std::weak_ptr<const InitialTangent> rest = problem.block().initialTangent(1, {});
     const Solution two = problem.solve(load, {.threads = 1});
     EXPECT_FALSE(rest.expired());
     bool held = true;

@@ -34,7 +34,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   Touch touch(design, load, arguments.mesh.options());
   touch.advance(Stage::Mesh, {}, {{}, session.stop});
   session.stages.add(touch.stages());
-  stopIfAsked(session.stop);
+  throwIfStopped(session.stop);
   const Mesh& mesh = *touch.mesh();
   const MeshQuality quality = meshQuality(mesh);
   session.result["nodes"] = mesh.nodeCount();

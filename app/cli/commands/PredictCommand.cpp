@@ -199,7 +199,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
     throw UsageError("--design: bounds need a network of force and position, and --noise above 0");
   const SampleSet samples = loadSamples(arguments.samples, session.stop, true);
   requireReadout(decoder, samples.origin.readout, "the samples are");
-  if (design && samples.beside.rows() > 0)
+  if (design && samples.secondTouch.rows() > 0)
     throw UsageError("--design: samples: " + gotExpected("two touches per sample", "one"));
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
@@ -207,9 +207,9 @@ Exit run(const PredictArguments& arguments, Session& session) {
   for (std::string& warning : otherSamples(decoder, samples)) prediction.warnings.push_back(std::move(warning));
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
-  stopIfAsked(session.stop);
+  throwIfStopped(session.stop);
   std::optional<DecoderError> error; // a decoder gives one touch: two have no error
-  if (samples.beside.rows() == 0) error = decoderError(decoder, prediction, samples);
+  if (samples.secondTouch.rows() == 0) error = decoderError(decoder, prediction, samples);
   fill(decoder, prediction, error, session);
   if (options.noise > 0 && !samples.hasTouches() && !decoder.place) { // the bound is of forces on known areas
     const NoiseBound bound = noiseBound(samples, decoder.input.kind, decoder.input.rows, options.noise);
@@ -218,7 +218,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
   }
   std::vector<std::pair<std::string, ErrorsOverBounds>> bounds;
   if (design) bounds = besideBounds(*design, samples, decoder, prediction, options.noise, session);
-  stopIfAsked(session.stop);
+  throwIfStopped(session.stop);
   if (!arguments.output.path.empty()) {
     writeFile(arguments.output.path, csv(decoder, prediction), arguments.output.force);
     session.result["file"] = arguments.output.path.string();

@@ -161,7 +161,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
     if (pair)
       current = touch.field()->current(touch.solution()->state(), *touch.network(), touch.design().field()->readout,
                                        pair->first, pair->second, session.threads, session.stop);
-    stopIfAsked(session.stop);
+    throwIfStopped(session.stop);
     exportVtu(arguments.output, *touch.mesh(), &fields, current ? &*current : nullptr, session);
   }
   return touch.solution()->converged ? Exit::Done : Exit::NoResult;

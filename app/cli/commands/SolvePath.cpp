@@ -78,7 +78,7 @@ Exit solvePath(const SensorDesign& design, const std::vector<LoadCase>& path, co
     warnWhereFewNodesTouch(path[k], touched.steps[k].solution.state().indenters, session);
   if (!output.path.empty() && !session.stop.stop_requested()) {
     const NodalFields fields = touched.problem.fields(last.state());
-    stopIfAsked(session.stop);
+    throwIfStopped(session.stop);
     exportVtu(output, touched.problem.mesh(), &fields, nullptr, session);
   }
   return whole ? Exit::Done : Exit::NoResult;

@@ -166,7 +166,7 @@ void NoiseFloor::boundPairs(double noise) {
                     std::iota(all.begin(), all.end(), 0);
                     const int centre = centreRowWire(samples->training.rowWires);
                     const NoiseBound one = noiseBound(samples->training, InputKind::Resistance, {centre}, noise);
-                    stopIfAsked(stop);
+                    throwIfStopped(stop);
                     const NoiseBound every = noiseBound(samples->training, InputKind::Resistance, all, noise);
                     return [this, noise, samples, centre, one, every] {
                       if (samples == network_.sharedSamples() && boundedFor_ == noise)

@@ -15,7 +15,7 @@ void ExportJob::write(const QString& file, Making make) {
                                                   JobProgress& progress) -> JobRunner::Taking {
         progress.set(-1, title.toStdString());
         const std::string content = make(stop);
-        stopIfAsked(stop);
+        throwIfStopped(stop);
         writeFile(file.toStdString(), content, true); // the dialog has asked
         return [this, file] { emit done(tr("Wrote %1.").arg(file)); };
       },

@@ -24,10 +24,10 @@ std::vector<FoundPoint> found(const Mesh& mesh, const Eigen::Matrix3Xd& points_m
   std::vector<FoundPoint> all;
   all.reserve(static_cast<std::size_t>(points_mm.cols()));
   for (Eigen::Index first = 0; first < points_mm.cols(); first += kPointsAtOnce) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     const PointProbe probe(mesh, points_mm.middleCols(first, std::min(kPointsAtOnce, points_mm.cols() - first)));
-    for (const std::vector<PointProbe::Holder>& holders : probe.holders())
-      all.push_back({mesh.elements.col(holders.front().element), holders.front().shapes});
+    for (const std::vector<PointProbe::Host>& hosts : probe.hosts())
+      all.push_back({mesh.elements.col(hosts.front().element), hosts.front().shapes});
   }
   return all;
 }
@@ -118,20 +118,20 @@ KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_
   }
   const std::string whose = uniform ? "the block" : "the reference design";
   const bool good = touch.advance(Stage::Displacements, {.oneTangent = true}, {.step = {}, .stop = stop});
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   if (!good)
     throw Error(whose + " cannot carry the load" + (uniform ? " uniform: " : ": ") + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
   KeptPath path{kept, load, loadPathStates(touch, stop), {}};
   if (uniform) path.asLarge = forceShares(shown);
   if (kept.field() != nullptr) path.touch = touch;
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   const Eigen::Vector3d shares = kept.block_mm.cwiseQuotient(shown.design().block_mm);
   const Eigen::Matrix3Xd places = (shares.asDiagonal() * shown.mesh()->nodes_mm)
                                       .cwiseMin(kept.block_mm.replicate(1, shown.mesh()->nodes_mm.cols())); // rounding
   const std::vector<FoundPoint> points = found(*touch.mesh(), places, stop);
   for (LoadPathState& state : path.states) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     state.fields = readAt(points, state.fields);
   }
   return path;

@@ -51,7 +51,7 @@ void NetworkBound::compute() {
       [this, open, samples = session_.sharedSamples()](const std::stop_token& stop, JobProgress&) -> JobRunner::Taking {
         std::vector<Question> done = open;
         for (Question& question : done) {
-          stopIfAsked(stop);
+          throwIfStopped(stop);
           try {
             question.answer = noiseBound(samples->training, question.input,
                                          rowsNamed(question.rows, samples->training.rowWires), question.noise);

@@ -108,10 +108,10 @@ ChartSeries curveAlong(const Mesh& mesh, const PointProbe& probe, const std::vec
   curve.color = 0;
   for (int k = 0; k < kLinePoints; ++k) {
     // Nodal fields: those of the first element that holds the point are as good as those of any other.
-    const PointProbe::Holder& holder = probe.holders()[static_cast<std::size_t>(k)].front();
+    const PointProbe::Host& host = probe.hosts()[static_cast<std::size_t>(k)].front();
     double value = 0;
-    for (Eigen::Index n = 0; n < holder.shapes.size(); ++n)
-      value += holder.shapes[n] * values[static_cast<std::size_t>(mesh.elements(n, holder.element))];
+    for (Eigen::Index n = 0; n < host.shapes.size(); ++n)
+      value += host.shapes[n] * values[static_cast<std::size_t>(mesh.elements(n, host.element))];
     curve.x.push_back(length_mm * k / (kLinePoints - 1));
     curve.y.push_back(value);
   }

@@ -165,7 +165,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
     auto path = std::make_shared<Path>(Path{touch, {}});
     progress.set(-1, "Fields along the load path");
     path->states = loadPathStates(touch, stop);
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     // One colour scale over the whole path.
     Settings fixed = settings;
     std::vector<double> all;

@@ -125,7 +125,7 @@ void SceneExport::finish() {
       [this, files, folder = folder_](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
         FilesTogether writing;
         for (std::size_t k = 0; k < files->size(); ++k) {
-          stopIfAsked(stop);
+          throwIfStopped(stop);
           const File& file = (*files)[k];
           progress.set(static_cast<double>(k) / static_cast<double>(files->size()), file.path.toStdString());
           if (file.picture.empty())

@@ -128,7 +128,7 @@ void Menus::exportResistances() {
                                  known = workbench_.resistances(),
                                  stale = touchStale(workbench_)](const std::stop_token& stop) {
     const auto resistances = known ? known : fieldResistances(touch, fraction, stop);
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     return resistancesCsv({touch.design(), touch.load(), fraction, touch.meshOptions(), stale}, *resistances)
         .toStdString();
   });

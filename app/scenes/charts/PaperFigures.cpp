@@ -21,7 +21,7 @@ public:
   Album(FilesTogether& files, const std::stop_token& stop) : files_(files), stop_(stop) {}
 
   void add(const Picture& picture, const std::string& file, const std::string& caption, const std::string& section) {
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     pictures_.push_back({files_.add(file, [&](const auto& png) { writePng(picture, png); }), caption, section});
   }
   [[nodiscard]] const std::vector<ReportPicture>& pictures() const { return pictures_; }

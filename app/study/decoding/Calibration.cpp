@@ -8,7 +8,7 @@
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
-#include "nn/rivals/RecursiveLeastSquares.h"
+#include "nn/baselines/RecursiveLeastSquares.h"
 
 #include <Eigen/LU>
 
@@ -61,7 +61,7 @@ Correction fit(const Scaled& samples, Eigen::Index left) {
 Eigen::MatrixXd unseenErrors(const Scaled& samples, const std::stop_token& stop) {
   Eigen::MatrixXd errors(samples.said.rows(), samples.said.cols());
   for (Eigen::Index i = 0; i < errors.cols(); ++i) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     errors.col(i) = fit(samples, i).transpose() * regressors(samples.said.col(i)) - samples.truth.col(i);
   }
   return errors;
@@ -124,28 +124,28 @@ void apply(std::optional<OutputCorrection>& there, const OutputCorrection& affin
 
 /// Into the polynomials x(N): x(A^-1 (F - b)) is one of the same degree, found again through enough of its points.
 void apply(ForwardModel& model, const OutputCorrection& affine) {
-  const Eigen::Vector3d half = model.causeFactor.cwiseInverse();
+  const Eigen::Vector3d half = model.parameterFactor.cwiseInverse();
   const int side = 2 * (model.degree + 1); // a grid, so that twice the monomials are there at any degree
   const Eigen::Index points = static_cast<Eigen::Index>(side) * side * side;
   const auto classes = static_cast<Eigen::Index>(model.classes());
   Eigen::MatrixXd measurements(model.measurements(), points * classes);
-  Eigen::MatrixXd causes(3, points * classes);
+  Eigen::MatrixXd parameters(3, points * classes);
   Eigen::VectorXi classOf(points * classes);
   const Eigen::PartialPivLU<Eigen::MatrixXd> gains(affine.gains);
-  for (Eigen::Index i = 0; i < causes.cols(); ++i) {
+  for (Eigen::Index i = 0; i < parameters.cols(); ++i) {
     const Eigen::Index place = i % points;
     const Eigen::Array3d step(static_cast<double>(place % side), static_cast<double>(place / side % side),
                               static_cast<double>(place / side / side));
     classOf(i) = static_cast<int>(i / points);
-    causes.col(i) = model.causeOffset + half.cwiseProduct((2 * step / (side - 1) - 1).matrix());
+    parameters.col(i) = model.parameterOffset + half.cwiseProduct((2 * step / (side - 1) - 1).matrix());
     measurements.col(i) =
-        model.measurementsOf(static_cast<std::size_t>(classOf(i)), gains.solve(causes.col(i) - affine.offset));
+        model.measurementsOf(static_cast<std::size_t>(classOf(i)), gains.solve(parameters.col(i) - affine.offset));
   }
   ForwardModelOptions options;
   options.degree = model.degree;
   // About the mean, which keeps the digits that the small changes of R need.
   const Eigen::VectorXd mean = measurements.rowwise().mean();
-  ForwardModel refined = fitForwardModel(measurements.colwise() - mean, causes, classOf, options);
+  ForwardModel refined = fitForwardModel(measurements.colwise() - mean, parameters, classOf, options);
   for (Eigen::MatrixXd& coefficients : refined.coefficients) coefficients.col(0) += mean;
   refined.deviation = model.deviation;
   model = std::move(refined);
@@ -166,7 +166,7 @@ std::optional<std::size_t> classOf(const Decoder& decoder, const ForwardModel& m
 
 std::optional<double> modelMismatch(const Decoder& decoder, const SampleSet& frames) {
   const ForwardModel* model = decoder.areas ? &*decoder.areas : std::get_if<ForwardModel>(&decoder.model);
-  if (model == nullptr || model->causes() != 3) return {};
+  if (model == nullptr || model->parameters() != 3) return {};
   const Eigen::MatrixXd inputs = inputsOf(frames, decoder.input);
   const Eigen::Vector3d range_N = decoder.high_N - decoder.low_N;
   std::vector<double> shares;

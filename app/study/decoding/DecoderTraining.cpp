@@ -297,21 +297,21 @@ void DecoderTraining::fitTouches() {
   if (!decoder_.place)
     throw Error("target: got force, expected force+place: the touch decoder learns force and position together");
   // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
-  Eigen::MatrixXd causes = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
-  causes.topRows(targets_.rows()) = targets_;
+  Eigen::MatrixXd parameters = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
+  parameters.topRows(targets_.rows()) = targets_;
   if (samples_.hasTouches()) // nobody tells them of the indenter of a rig, which stays the same
-    causes.bottomRows<2>() << samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
-  Eigen::VectorXi groups(causes.rows());
+    parameters.bottomRows<2>() << samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
+  Eigen::VectorXi groups(parameters.rows());
   groups << 1, 1, 1, 0, 0, 2, 2;
   KernelForwardOptions options{options_.noise, options_.threads};
   if (design_ && samples_.hasTouches()) {
-    options.known = knownReadings(
+    options.priorMean = knownReadings(
         *design_, samples_, decoder_.input, options_.threads, stop_,
         [this](double share, const std::string& what) { say(kKnown * share, "Prior mean from the design: " + what); });
-    options.mirrors = mirrorsOfTouches(*design_, causes, decoder_.input);
+    options.mirrors = mirrorsOfTouches(*design_, parameters, decoder_.input);
     say(kKnown, "Correction learned from the samples");
   }
-  KernelForwardFit fit = fitKernelForwardModel(inputs_, causes, groups, options, stop_);
+  KernelForwardFit fit = fitKernelForwardModel(inputs_, parameters, groups, options, stop_);
   decoder_.report.centers = static_cast<int>(samples_.size());
   decoder_.report.rank = static_cast<int>(fit.model.components());
   decoder_.report.spread = fit.width;

@@ -43,18 +43,19 @@ ForwardModel ofMeasurements(const ForwardModel& model, const std::vector<Eigen::
 
 ImputedReadings imputed(const ForwardModel& model, const LikelihoodEstimate& touch, const PresentReadings& readings) {
   Eigen::MatrixXd slope;
-  const Eigen::VectorXd all = model.measurementsOf(static_cast<std::size_t>(touch.classIndex), touch.causes, &slope);
+  const Eigen::VectorXd all =
+      model.measurementsOf(static_cast<std::size_t>(touch.classIndex), touch.parameters, &slope);
   const Eigen::MatrixXd weighted =
       model.deviation(readings.present).cwiseInverse().asDiagonal() * slope(readings.present, Eigen::all);
   Eigen::MatrixXd information = weighted.transpose() * weighted;
-  information.diagonal() += kRangePrecision * model.causeFactor.cwiseAbs2().cwiseMax(1e-300);
+  information.diagonal() += kRangePrecision * model.parameterFactor.cwiseAbs2().cwiseMax(1e-300);
   const Eigen::LLT<Eigen::MatrixXd> factor = factorOf(information);
   const auto missing = static_cast<Eigen::Index>(readings.missing.size());
-  const Eigen::Index causes = slope.cols();
+  const Eigen::Index parameters = slope.cols();
   // L^-T is a root of the causes' covariance.
-  const Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(causes, causes));
-  ImputedReadings result{all(readings.missing), Eigen::MatrixXd::Zero(missing, causes + missing)};
-  result.scatter.leftCols(causes) = slope(readings.missing, Eigen::all) * root;
+  const Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(parameters, parameters));
+  ImputedReadings result{all(readings.missing), Eigen::MatrixXd::Zero(missing, parameters + missing)};
+  result.scatter.leftCols(parameters) = slope(readings.missing, Eigen::all) * root;
   result.scatter.rightCols(missing).diagonal() = model.deviation(readings.missing);
   return result;
 }
@@ -75,7 +76,7 @@ FewerTouchReadings::FewerTouchReadings(const KernelForwardModel& model, double n
   Eigen::MatrixXd covariance = noise * inverse;
   covariance.diagonal() += (model.deviation.array().square() - noise).cwiseMax(kLeastVariance).matrix();
   covariance_ = factorOf(covariance);
-  precision_ = (model.causeFactor.array() * model.causeDeviation.array())(varied_).square().inverse();
+  precision_ = (model.parameterFactor.array() * model.parameterDeviation.array())(varied_).square().inverse();
 }
 
 struct FewerTouchReadings::Fit {
@@ -112,7 +113,7 @@ KernelEstimate FewerTouchReadings::estimate(const KernelInversion& inversion,
   Eigen::VectorXd filled = readings_ohm;
   filled(missing_) = model_.measurementOffset(missing_) + toMissing_ * components;
   KernelEstimate result = inversion.estimate(filled);
-  Eigen::VectorXd scaled = (result.causes - model_.causeOffset).cwiseProduct(model_.causeFactor)(varied_);
+  Eigen::VectorXd scaled = (result.parameters - model_.parameterOffset).cwiseProduct(model_.parameterFactor)(varied_);
   Fit fit = fitAt(scaled, components);
   for (int step = 0; step < kRefinements; ++step) {
     const Eigen::VectorXd next = scaled + factorOf(fit.information).solve(fit.uphill);
@@ -124,10 +125,10 @@ KernelEstimate FewerTouchReadings::estimate(const KernelInversion& inversion,
   const Eigen::Index count = scaled.size();
   const Eigen::MatrixXd covariance = factorOf(fit.information).solve(Eigen::MatrixXd::Identity(count, count));
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Index cause = varied_[static_cast<std::size_t>(k)];
-    const double factor = model_.causeFactor(cause);
-    result.causes(cause) = model_.causeOffset(cause) + scaled(k) / factor;
-    result.standardDeviation(cause) = model_.inflation(cause) * std::sqrt(covariance(k, k)) / factor;
+    const Eigen::Index parameter = varied_[static_cast<std::size_t>(k)];
+    const double factor = model_.parameterFactor(parameter);
+    result.parameters(parameter) = model_.parameterOffset(parameter) + scaled(k) / factor;
+    result.standardDeviation(parameter) = model_.inflation(parameter) * std::sqrt(covariance(k, k)) / factor;
   }
   result.chiSquare = fit.chiSquare;
   return result;

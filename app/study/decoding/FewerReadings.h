@@ -1,7 +1,7 @@
 #pragma once
 
-#include "nn/rivals/ForwardModel.h"
-#include "nn/rivals/KernelInversion.h"
+#include "nn/baselines/ForwardModel.h"
+#include "nn/inversion/KernelInversion.h"
 
 #include <Eigen/Cholesky>
 

@@ -5,7 +5,6 @@
 #include "io/DesignFile.h"
 #include "model/DesignError.h"
 #include "model/FieldAtRest.h"
-#include "model/RowColumnResistance.h"
 #include "model/TouchRange.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -22,12 +21,6 @@ namespace palp {
 namespace {
 
 constexpr double kLeastPressesInRange = 6e6;
-
-Eigen::MatrixXd restOf(const SensorDesign& design) {
-  if (const FieldLaw* law = design.field())
-    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
-  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-}
 
 /// Where the decoder's inputs stand among the readings, row-wires first.
 std::vector<Eigen::Index> readingsOf(const DecoderInput& input) {
@@ -92,25 +85,26 @@ KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples
   surface(0);
   const auto found = InfluenceSurfaces::find(problem, readings, threads, stop, surface);
   if (!found) throw Cancelled();
-  const Eigen::MatrixXd all_ohm = restOf(design);
+  const Eigen::MatrixXd all_ohm = resistancesAtRest_ohm(design);
   const Eigen::VectorXd rest_ohm = all_ohm.reshaped()(used);
   const Eigen::Vector2d face_mm = design.block_mm.head<2>();
-  return [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, rest_ohm, face_mm,
-          least_N = leastPress_N(design.forceRange), threads, stop](const Eigen::MatrixXd& causes) -> Eigen::MatrixXd {
-    std::vector<Indenter> touches(static_cast<std::size_t>(causes.cols()), indenter);
-    for (std::size_t i = 0; i < touches.size(); ++i) {
-      const auto column = causes.col(static_cast<Eigen::Index>(i));
-      touches[i].radius_mm = column(5);
-      // The place of a table's outermost nodes may lie off the face.
-      touches[i].place_mm = column.segment<2>(3).cwiseMax(0).cwiseMin(face_mm);
-      touches[i].control = Press{{column(0), column(1), std::min(column(2), -least_N)}};
-    }
-    const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
-    return rest_ohm.asDiagonal() * (1 + changes.array()).matrix();
-  };
+  return
+      [surfaces = std::make_shared<const InfluenceSurfaces>(*found), indenter, rest_ohm, face_mm,
+       least_N = leastPress_N(design.forceRange), threads, stop](const Eigen::MatrixXd& parameters) -> Eigen::MatrixXd {
+        std::vector<Indenter> touches(static_cast<std::size_t>(parameters.cols()), indenter);
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+          const auto column = parameters.col(static_cast<Eigen::Index>(i));
+          touches[i].radius_mm = column(5);
+          // The place of a table's outermost nodes may lie off the face.
+          touches[i].place_mm = column.segment<2>(3).cwiseMax(0).cwiseMin(face_mm);
+          touches[i].control = Press{{column(0), column(1), std::min(column(2), -least_N)}};
+        }
+        const Eigen::MatrixXd changes = surfaces->under(touches, threads, stop);
+        return rest_ohm.asDiagonal() * (1 + changes.array()).matrix();
+      };
 }
 
-std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& causes,
+std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& parameters,
                                            const DecoderInput& input) {
   std::vector<KernelMirror> mirrors;
   for (int axis = 0; axis < 2; ++axis) {
@@ -118,9 +112,9 @@ std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eig
     if (!mirror) continue;
     KernelMirror found;
     found.about = {{axis, 0.}, {3 + axis, design.block_mm(axis) / 2}}; // force and place
-    const bool reflected = std::all_of(found.about.begin(), found.about.end(), [&](const auto& cause) {
-      const auto values = causes.row(cause.first);
-      return values.minCoeff() < values.maxCoeff() || values(0) == cause.second;
+    const bool reflected = std::all_of(found.about.begin(), found.about.end(), [&](const auto& parameter) {
+      const auto values = parameters.row(parameter.first);
+      return values.minCoeff() < values.maxCoeff() || values(0) == parameter.second;
     });
     for (std::size_t k = 0; reflected && k < input.rows.size(); ++k) {
       const auto image =

@@ -3,7 +3,7 @@
 #include "io/Decoder.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
-#include "nn/rivals/KernelInversion.h"
+#include "nn/inversion/KernelInversion.h"
 #include "solver/SensorMesh.h"
 
 #include <functional>
@@ -18,7 +18,7 @@ namespace palp {
 /// friction. Shape and rim are those of the samples. Throws DesignError where the shape has no place along x and y or
 /// the design a pressure law, Error where the samples are of another design, and Cancelled.
 /// `progress` is told each step of it before it runs: the share of the time that is done, and what comes.
-using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& causes)>;
+using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& parameters)>;
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop,
                             const std::function<void(double share, const std::string& what)>& progress = {});
@@ -28,7 +28,7 @@ MeshOptions meshOfKnownTouches(const SensorDesign& design, Eigen::Index samples)
 
 /// Mirrors that the design has and these touches (causes as above, a column each) can be reflected by: not where the
 /// decoder reads a row-wire without its image, or a force or place that never varies would become another.
-std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& causes,
+std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eigen::MatrixXd& parameters,
                                            const DecoderInput& input);
 
 /// The least force that counts as a press: a share of the design's range, which is 1e-6 N of the paper's.

@@ -3,12 +3,12 @@
 #include "app/study/decoding/Prediction.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
+#include "model/base/InverseDiagonal.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
-#include "nn/rivals/ForwardModel.h"
+#include "nn/baselines/ForwardModel.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <limits>
@@ -21,15 +21,6 @@ namespace {
 /// that of the best linear estimate, no lower bound: van Trees' inequality asks for a density that is smooth at its
 /// ends.
 constexpr double kPriorInformation = 12;
-
-/// diag(a^-1) for a symmetric a; infinite where a is singular to rounding.
-Eigen::VectorXd inverseDiagonal(const Eigen::MatrixXd& a) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a);
-  const double least = 1e-14 * eigen.eigenvalues().maxCoeff();
-  if (!(eigen.eigenvalues().minCoeff() > least))
-    return Eigen::VectorXd::Constant(a.rows(), std::numeric_limits<double>::infinity());
-  return eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse();
-}
 
 std::string components(const Eigen::VectorXd& percent) {
   std::string words;
@@ -81,7 +72,8 @@ NoiseBound noiseBound(const SampleSet& samples, InputKind kind, const std::vecto
           value.cwiseInverse().asDiagonal() * slope(Eigen::all, varied) * range(varied).asDiagonal();
       const Eigen::MatrixXd information = j.transpose() * j / (relativeNoise * relativeNoise);
       without += inverseDiagonal(information).array();
-      with += inverseDiagonal(information + kPriorInformation * Eigen::MatrixXd::Identity(outputs, outputs)).array();
+      const Eigen::MatrixXd prior = kPriorInformation * Eigen::MatrixXd::Identity(outputs, outputs);
+      with += inverseDiagonal(Eigen::MatrixXd(information + prior)).array();
     }
   }
   const double count = static_cast<double>(samples.size());

@@ -128,7 +128,7 @@ void decodeByLikelihood(const Decoder& decoder, const ForwardModel& model, const
   }
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
-    result.forces_N.col(i) = estimate.causes;
+    result.forces_N.col(i) = estimate.parameters;
     result.chiSquare(i) = estimate.chiSquare;
     if (options.standardDeviation) result.standardDeviation_N.col(i) = estimate.standardDeviation;
     if (!withArea) continue;
@@ -148,7 +148,7 @@ void addAreas(const Decoder& decoder, const LikelihoodInversion& inversion,
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const LikelihoodEstimate estimate = inversion.estimate(inputs.col(i));
     result.chiSquare(i) = estimate.chiSquare;
-    result.likely_N.col(i) = estimate.causes;
+    result.likely_N.col(i) = estimate.parameters;
     result.area(i) = areaOf(decoder, estimate.classIndex);
     result.areaConfidence(i) = estimate.confidence;
   }
@@ -217,14 +217,14 @@ void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, cons
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     const KernelEstimate estimate =
         fewer != nullptr ? fewer->estimate(inversion, inputs.col(i)) : inversion.estimate(inputs.col(i));
-    result.forces_N.col(i) = estimate.causes.head(outputs);
+    result.forces_N.col(i) = estimate.parameters.head(outputs);
     result.standardDeviation_N.col(i) = estimate.standardDeviation.head(outputs);
     result.chiSquare(i) = estimate.chiSquare;
-    if (sized) result.indenterSize_mm(i) = estimate.causes(outputs);
-    if (model.leftByOne == 0) continue;
-    result.pressing.push_back(estimate.change < seen                  ? Pressing::None
-                              : estimate.chiSquare <= model.leftByOne ? Pressing::One
-                                                                      : Pressing::Other);
+    if (sized) result.indenterSize_mm(i) = estimate.parameters(outputs);
+    if (model.residualLimit == 0) continue;
+    result.pressing.push_back(estimate.change < seen                      ? Pressing::None
+                              : estimate.chiSquare <= model.residualLimit ? Pressing::One
+                                                                          : Pressing::Other);
   }
 }
 

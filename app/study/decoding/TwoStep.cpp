@@ -226,10 +226,10 @@ Eigen::MatrixXd likelihoodForces(const ForwardModel& model, const Eigen::Ref<con
                                  const TrainOptions& options, const std::stop_token& stop) {
   const Eigen::MatrixXd measured = noisyCopies(inputs, options.noise, 1, options.seed);
   const LikelihoodInversion inversion(model);
-  Eigen::MatrixXd forces(model.causes(), inputs.cols());
+  Eigen::MatrixXd forces(model.parameters(), inputs.cols());
   for (Eigen::Index i = 0; i < inputs.cols(); ++i) {
     if (stop.stop_requested()) throw Cancelled();
-    forces.col(i) = inversion.estimate(measured.col(i)).causes;
+    forces.col(i) = inversion.estimate(measured.col(i)).parameters;
   }
   return forces;
 }

@@ -3,7 +3,6 @@
 #include "app/study/decoding/CalibrationMark.h"
 #include "io/DesignFile.h"
 #include "model/FieldAtRest.h"
-#include "model/RowColumnResistance.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
@@ -44,16 +43,10 @@ void requireFit(const Decoder& decoder, const BoardInfo& info) {
   requireReadout(decoder, info.readout, "the board is");
 }
 
-Eigen::MatrixXd atRest(const SensorDesign& design) {
-  if (const FieldLaw* law = design.field())
-    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
-  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-}
-
 /// Resistances at rest; empty where the network's design is not known.
 Eigen::MatrixXd restResistances(const Decoder& decoder, const std::optional<SensorDesign>& design) {
   const SensorDesign known = design.value_or(paperDesign());
-  if (designFingerprint(known) == decoder.designFingerprint) return atRest(known);
+  if (designFingerprint(known) == decoder.designFingerprint) return resistancesAtRest_ohm(known);
   if (design)
     throw Error("the network is of design " + decoder.designFingerprint + ", the given design is " +
                 designFingerprint(known) + "; give the design that the network was trained for");

@@ -10,7 +10,7 @@ namespace palp {
 namespace {
 
 constexpr double kQuantile99 = 2.326; // of a normal distribution
-constexpr double kCauses = 3;         // forces that are fitted to the readings
+constexpr double kParameters = 3;     // forces that are fitted to the readings
 constexpr double kMarginOfRange = 0.02;
 constexpr double kMarginDeviations = 4;
 constexpr double kDisagreement = 0.05;  // of the range, at least
@@ -28,8 +28,8 @@ Eigen::Index readingsIn(const PlausibilityInput& input) {
 Plausibility::Plausibility(const Decoder& decoder)
     : low_N_(decoder.low_N), range_N_(decoder.high_N - decoder.low_N), trainedNoise_(decoder.noise) {
   if (const auto* touches = std::get_if<KernelForwardModel>(&decoder.model)) {
-    if (touches->leftByOne == 0) return;
-    leftByOne_ = touches->leftByOne;
+    if (touches->residualLimit == 0) return;
+    leftByOne_ = touches->residualLimit;
     modelVariance_ = (touches->deviation.array().square() - (trainedNoise_ > 0 ? 1 : 0)).cwiseMax(0.0);
     const double unit = std::max(trainedNoise_, leastTouchNoise);
     noiseSquare_ = Eigen::VectorXd::Constant(modelVariance_.size(), 1 / (unit * unit));
@@ -49,7 +49,7 @@ void Plausibility::restart() {
 }
 
 double Plausibility::limit(Eigen::Index readings, double noiseUncertainty) {
-  const double freedom = std::max(1.0, static_cast<double>(readings) - kCauses);
+  const double freedom = std::max(1.0, static_cast<double>(readings) - kParameters);
   const double variance = 2 / (9 * freedom) + 4 * noiseUncertainty * noiseUncertainty / 9;
   const double cubeRoot = 1 - 2 / (9 * freedom) + kQuantile99 * std::sqrt(variance);
   return std::pow(cubeRoot, 1.5); // of the rms: the square root of the third power
@@ -68,7 +68,7 @@ std::optional<double> Plausibility::misfit(const PlausibilityInput& input) const
       modelVariance_.array() + input.noise * input.noise * input.readings_ohm.array().square();
   const Eigen::ArrayXd ratio = expected / counted;
   const auto readings = static_cast<double>(readingsIn(input));
-  const double fitted = std::max(1.0, readings - kCauses) / readings;
+  const double fitted = std::max(1.0, readings - kParameters) / readings;
   return std::sqrt(*input.chiSquare / (fitted * (input.present.empty() ? ratio.mean() : ratio(input.present).mean())));
 }
 

@@ -2,7 +2,7 @@
 
 #include "io/board/VirtualBoard.h"
 #include "model/SampleSet.h"
-#include "nn/rivals/ForwardModel.h"
+#include "nn/baselines/ForwardModel.h"
 
 #include <deque>
 #include <memory>

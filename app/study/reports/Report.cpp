@@ -71,7 +71,7 @@ private:
       page_.paragraph(drawing.title + ": not drawn, this palp was built without VTK; its points are in the CSV.");
       return;
     }
-    stopIfAsked(stop_);
+    throwIfStopped(stop_);
     page_.picture(files_.add(drawing.file + ".png", [&](const auto& png) { draw(drawing, png); }), drawing.caption);
   }
 

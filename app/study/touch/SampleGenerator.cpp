@@ -131,7 +131,7 @@ bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& s
   const int beside = partsBeside(static_cast<std::size_t>(&part - parts_.data()));
   BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / beside};
   batch.checkFirst = checked;
-  batch.leaveOut = request_.touches.has_value();
+  batch.skipFailed = request_.touches.has_value();
   if (part.touches && (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane))
     batch.touched = touchedByTouches(design_, *part.touches, options);
   Mesh mesh;
@@ -224,7 +224,7 @@ std::string SampleGenerator::doubts() const {
   std::vector<std::string> all;
   for (const Part& part : parts_) {
     all.insert(all.end(), part.doubts.begin(), part.doubts.end());
-    if (part.solver) all.insert(all.end(), part.solver->doubts().begin(), part.solver->doubts().end());
+    if (part.solver) all.insert(all.end(), part.solver->nonUniqueLoads().begin(), part.solver->nonUniqueLoads().end());
   }
   if (all.empty()) return {};
   return (all.size() == 1 ? "" : std::to_string(all.size()) + " of the checked loads; the first: ") + all.front() +
@@ -336,7 +336,7 @@ ConductionBatch::Answers SampleGenerator::answers(Part& part, const std::vector<
     result.resistances_ohm.push_back(moved.upper_mm.size() > 0 ? rowColumnResistances(design_, moved)
                                                                : Eigen::MatrixXd());
   }
-  if (const auto& left = part.solver->leftOut(); !left.empty()) {
+  if (const auto& left = part.solver->failedLoads(); !left.empty()) {
     const std::lock_guard lock(guard_);
     if (whyRedrawn_.empty() || std::stoull(left.front()) < std::stoull(whyRedrawn_)) whyRedrawn_ = left.front();
   }
@@ -355,7 +355,7 @@ SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answe
   set.area.resize(count);
   set.forces_N.resize(together ? 3 * set.areaCount : 3, count);
   set.touches.resize(request_.touches ? kTouchRows : 0, count);
-  set.beside.resize(request_.touches && request_.touches->atOnce > 1 ? kBesideRows : 0, count);
+  set.secondTouch.resize(request_.touches && request_.touches->atOnce > 1 ? kSecondTouchRows : 0, count);
   set.displacements_mm.resize(3 * design_.upper.electrodes(), count);
   set.resistances_ohm.resize(set.rowWires * set.columnWires, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -365,7 +365,8 @@ SampleSet SampleGenerator::block(SampleRange range, const ConductionBatch::Answe
       set.area(i) = areaUnder(design_, pressing.place_mm);
       set.touches.col(i) = asRows(pressing);
       set.forces_N.col(i) = pressing.press()->force_N;
-      if (load.indenters.size() > 1) set.beside.col(i) << asRows(load.indenters[1]), load.indenters[1].press()->force_N;
+      if (load.indenters.size() > 1)
+        set.secondTouch.col(i) << asRows(load.indenters[1]), load.indenters[1].press()->force_N;
     } else {
       set.area(i) = together ? -1 : load.areas[0].area;
     }

@@ -37,7 +37,7 @@ void SampleGenerator::Part::giveBack() {
     if (solver->measuredError())
       measuredError =
           std::max({measuredError.value_or(0), *solver->measuredError(), field ? field->surrogateError() : 0});
-    doubts.insert(doubts.end(), solver->doubts().begin(), solver->doubts().end());
+    doubts.insert(doubts.end(), solver->nonUniqueLoads().begin(), solver->nonUniqueLoads().end());
   }
   field.reset();
   solver.reset();
@@ -92,7 +92,7 @@ bool SampleGenerator::answerPart(std::size_t index, bool checked, const std::vec
   std::size_t done = 0;
   ConductionBatch::Answers found = answers(
       part, some, ofSome, [&](std::size_t solved) { progress.add(solved - std::exchange(done, solved)); }, stop);
-  part.solver->rest();
+  part.solver->releaseMemory();
   if (found.displacements.size() < own.size()) return false;
   for (std::size_t k = 0; k < own.size(); ++k) {
     all.displacements[own[k]] = std::move(found.displacements[k]);

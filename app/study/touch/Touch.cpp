@@ -26,12 +26,6 @@ bool sameButForReadout(const SensorDesign& a, const SensorDesign& b) {
 
 } // namespace
 
-Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design) {
-  if (const FieldLaw* law = design.field())
-    return NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm();
-  return rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-}
-
 Touch::Touch(SensorDesign design, LoadCase load, MeshOptions meshOptions)
     : design_(std::move(design)), load_(std::move(load)), meshOptions_(std::move(meshOptions)) {}
 

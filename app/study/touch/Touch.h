@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/study/StageLog.h"
+#include "model/FieldAtRest.h"
 #include "model/LoadCase.h"
 #include "model/RowColumnResistance.h"
 #include "model/SensorDesign.h"
@@ -16,9 +17,6 @@ namespace palp {
 
 /// How far along the chain from the design to the resistances; each needs those before it.
 enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
-
-/// The resistances that the design's law gives at rest, row-wires x column-wires.
-Eigen::MatrixXd resistancesAtRest_ohm(const SensorDesign& design);
 
 /// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
 /// Another law of the resistances leaves the deformation as it is where it asks for the same mesh

@@ -5,7 +5,7 @@
 
 namespace palp::PALP_KERNEL {
 
-// Anderson's mixing of 8 lanes (batch/LaneMixing.h has the formulas). Of each number the past is kept in single
+// Anderson's mixing of 8 lanes (batch/AndersonBatch.h has the formulas). Of each number the past is kept in single
 // precision, [what][8].
 
 typedef int NarrowMask __attribute__((vector_size(4 * PALP_PACK)));
@@ -23,7 +23,7 @@ PALP_INLINE NarrowPack narrow(Pack v) {
   return __builtin_convertvector(v, NarrowPack);
 }
 
-/// `newest` before the others of what is kept [mixingDepth][8], where the mask says so.
+/// Inserts `newest` before the stored values [mixingDepth][8] where the mask is set.
 PALP_INLINE void keep(NarrowMask where, NarrowPack newest, float* kept, NarrowPack now[mixingDepth]) {
   for (int j = 0; j < mixingDepth; ++j) now[j] = loadNarrow(kept + 8 * j);
   for (int j = mixingDepth - 1; j > 0; --j) now[j] = where ? now[j - 1] : now[j];
@@ -55,11 +55,11 @@ PALP_INLINE void sumMixed(const MixedRows& rows, const LaneMix& mix, double* sum
   }
 }
 
-/// What is taken off a direction.
+/// The mixing term, subtracted from a direction.
 PALP_INLINE Pack mixedPart(const LaneMix& mix, const NarrowPack motions[mixingDepth], int lane) {
   Pack part{};
   for (int j = 0; j < mixingDepth; ++j) {
-    const NarrowPack motion = loadMask(mix.known[j] + lane) ? motions[j] : NarrowPack{};
+    const NarrowPack motion = loadMask(mix.hasMotion[j] + lane) ? motions[j] : NarrowPack{};
     part += load(mix.gamma[j] + lane) * wide(motion);
   }
   return part;
@@ -73,7 +73,7 @@ PALP_INLINE void stepMixed(const MixedRows& rows, const LaneMix& mix, double* u)
       for (int j = 0; j < mixingDepth; ++j) motions[j] = loadNarrow(past + 16 + 8 * j);
       const Pack step = scaled(rows.directions, rows.rows[i], mix.scale, lane) - mixedPart(mix, motions, lane);
       storeNarrow(past + 8, narrow(step));
-      double* value = u + std::size_t(i) * batchLanes + lane;
+      double* value = u + std::size_t(i) * batchColumns + lane;
       store(value, load(value) + step);
     }
   }
@@ -96,11 +96,11 @@ PALP_INLINE void followMixed(const double* directions, int count, const LaneMix&
   }
 }
 
-/// Where lanes begin another load.
-PALP_INLINE void beginLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const LaneStarts& starts) {
+/// Initial guess of lanes that start a load increment.
+PALP_INLINE void beginLoads(double* values, float* before, int rows, std::ptrdiff_t stride, const InitialGuess& guess) {
   for (int lane = 0; lane < 8; lane += packSize) {
-    const NarrowMask from = loadMask(starts.begins + lane), on = loadMask(starts.ahead + lane);
-    const WideMask rest = __builtin_convertvector(loadMask(starts.atRest + lane), WideMask);
+    const NarrowMask from = loadMask(guess.begins + lane), on = loadMask(guess.ahead + lane);
+    const WideMask rest = __builtin_convertvector(loadMask(guess.atRest + lane), WideMask);
     for (int i = 0; i < rows; ++i) {
       double* value = values + i * stride + lane;
       float* past = before + i * stride + lane;

@@ -31,7 +31,7 @@ template <int Packs> PALP_INLINE void rowSums(const float* block, int columns, c
     FloatPack sum[count][Packs] = {};
     for (int k = 0; k < columns; ++k) {
       FloatPack v[Packs];
-      for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+      for (int p = 0; p < Packs; ++p) v[p] = loadFloats(x + k * batchColumns + p * floatPackSize);
       for (int r = 0; r < count; ++r)
         for (int p = 0; p < Packs; ++p) sum[r][p] += block[k * rowsABlock + r0 + r] * v[p];
     }
@@ -40,40 +40,40 @@ template <int Packs> PALP_INLINE void rowSums(const float* block, int columns, c
   }
 }
 
-/// The same of some columns at once, whose sums do not wait for each other.
+/// The same for several columns, whose sums are independent of each other.
 template <int Packs, int Columns> PALP_INLINE void subtractColumns(const float* block, const Rows<Packs>& t, float* x) {
   FloatPack v[Columns][Packs];
   for (int k = 0; k < Columns; ++k)
-    for (int p = 0; p < Packs; ++p) v[k][p] = loadFloats(x + k * batchLanes + p * floatPackSize);
+    for (int p = 0; p < Packs; ++p) v[k][p] = loadFloats(x + k * batchColumns + p * floatPackSize);
   for (int r = 0; r < rowsABlock; ++r)
     for (int k = 0; k < Columns; ++k)
       for (int p = 0; p < Packs; ++p) v[k][p] -= block[k * rowsABlock + r] * t.row[r][p];
   for (int k = 0; k < Columns; ++k)
-    for (int p = 0; p < Packs; ++p) storeFloats(x + k * batchLanes + p * floatPackSize, v[k][p]);
+    for (int p = 0; p < Packs; ++p) storeFloats(x + k * batchColumns + p * floatPackSize, v[k][p]);
 }
 
-/// x[k] -= sum over r of block[k][r] t[r] for one block of rows. The block to come stands before this one, where the
-/// machine expects nothing to be read: it is fetched meanwhile, without which a third of the time is spent waiting.
+/// x[k] -= sum over r of block[k][r] t[r] for one block of rows. The next block is stored before this one, which
+/// the hardware does not prefetch: it is prefetched here, which saves a third of the time.
 template <int Packs>
 PALP_INLINE void subtractTransposed(const float* block, int columns, const Rows<Packs>& t, float* x) {
   constexpr int together = 2; // a cache line of the block
   int k = 0;
   for (; k + together <= columns; k += together) {
     __builtin_prefetch(block + (k - columns) * rowsABlock);
-    subtractColumns<Packs, together>(block + k * rowsABlock, t, x + k * batchLanes);
+    subtractColumns<Packs, together>(block + k * rowsABlock, t, x + k * batchColumns);
   }
-  for (; k < columns; ++k) subtractColumns<Packs, 1>(block + k * rowsABlock, t, x + k * batchLanes);
+  for (; k < columns; ++k) subtractColumns<Packs, 1>(block + k * rowsABlock, t, x + k * batchColumns);
 }
 
 /// Lanes that have right sides, in pieces that go through the factor together. A block of the factor's rows serves all
 /// of them before the next is read: the panels of wide supernodes fit no cache.
 struct LivePieces {
   int count = 0;
-  int lane[batchLanes / floatPackSize], packs[batchLanes / floatPackSize];
+  int lane[batchColumns / floatPackSize], packs[batchColumns / floatPackSize];
 };
 PALP_INLINE LivePieces livePieces(unsigned live) {
   LivePieces pieces;
-  for (int lane = 0; lane < batchLanes; lane += floatPackSize) {
+  for (int lane = 0; lane < batchColumns; lane += floatPackSize) {
     unsigned any = 0;
     for (int block = lane / 8; block <= (lane + floatPackSize - 1) / 8; ++block) any |= live >> block & 1U;
     if (any == 0) continue;
@@ -95,9 +95,9 @@ template <int Packs> PALP_INLINE void forwardOwnRows(const float* block, int r0,
   for (int r = 0; r < rows; ++r)
     for (int p = 0; p < Packs; ++p) {
       float* column = own + p * floatPackSize;
-      FloatPack v = loadFloats(column + (r0 + r) * batchLanes) - sums.row[r][p];
-      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(column + (r0 + k) * batchLanes);
-      storeFloats(column + (r0 + r) * batchLanes, v * triangle[r * rowsABlock + r]);
+      FloatPack v = loadFloats(column + (r0 + r) * batchColumns) - sums.row[r][p];
+      for (int k = 0; k < r; ++k) v -= triangle[k * rowsABlock + r] * loadFloats(column + (r0 + k) * batchColumns);
+      storeFloats(column + (r0 + r) * batchColumns, v * triangle[r * rowsABlock + r]);
     }
 }
 
@@ -107,7 +107,7 @@ PALP_INLINE void forwardRowsBelow(const float* block, int width, const float* ow
   rowSums(block, width, own, sums);
   for (int r = 0; r < rowsABlock; ++r)
     for (int p = 0; p < Packs; ++p) {
-      float* y = x + std::size_t(rows[r]) * batchLanes + p * floatPackSize;
+      float* y = x + std::size_t(rows[r]) * batchColumns + p * floatPackSize;
       storeFloats(y, loadFloats(y) - sums.row[r][p]);
     }
 }
@@ -116,7 +116,7 @@ PALP_INLINE void forwardRowsBelow(const float* block, int width, const float* ow
 PALP_INLINE void forwardSupernode(const BlockedFactor& L, int s, float* x, const LivePieces& live) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s];
-  float* own = x + std::size_t(L.first[s]) * batchLanes;
+  float* own = x + std::size_t(L.first[s]) * batchColumns;
   for (int r0 = 0; r0 < width; r0 += rowsABlock) {
     const int rows = width - r0 < rowsABlock ? width - r0 : rowsABlock;
     for (int i = 0; i < live.count; ++i)
@@ -140,7 +140,8 @@ template <int Packs>
 PALP_INLINE void backwardRowsBelow(const float* block, int width, const int* rows, const float* x, float* own) {
   Rows<Packs> t;
   for (int r = 0; r < rowsABlock; ++r)
-    for (int p = 0; p < Packs; ++p) t.row[r][p] = loadFloats(x + std::size_t(rows[r]) * batchLanes + p * floatPackSize);
+    for (int p = 0; p < Packs; ++p)
+      t.row[r][p] = loadFloats(x + std::size_t(rows[r]) * batchColumns + p * floatPackSize);
   subtractTransposed(block, width, t, own);
 }
 
@@ -151,7 +152,7 @@ template <int Packs> PALP_INLINE void backwardOwnRows(const float* block, int r0
     for (int p = 0; p < Packs; ++p) t.row[r][p] = FloatPack{};
   for (int r = rows - 1; r >= 0; --r)
     for (int p = 0; p < Packs; ++p) {
-      float* value = own + (r0 + r) * batchLanes + p * floatPackSize;
+      float* value = own + (r0 + r) * batchColumns + p * floatPackSize;
       FloatPack v = loadFloats(value);
       for (int k = r + 1; k < rows; ++k) v -= triangle[r * rowsABlock + k] * t.row[k][p];
       t.row[r][p] = v * triangle[r * rowsABlock + r];
@@ -164,7 +165,7 @@ template <int Packs> PALP_INLINE void backwardOwnRows(const float* block, int r0
 PALP_INLINE void backwardSupernode(const BlockedFactor& L, int s, float* x, const LivePieces& live) {
   const int width = L.first[s + 1] - L.first[s];
   const float* block = L.values + L.start[s + 1];
-  float* own = x + std::size_t(L.first[s]) * batchLanes;
+  float* own = x + std::size_t(L.first[s]) * batchColumns;
   constexpr bool together = rowsTogether<mostPacks> == rowsABlock; // all rows of a block have registers
   for (int b = L.blockStart[s + 1] - 1; b >= L.blockStart[s]; --b) {
     block -= width * rowsABlock;
@@ -235,8 +236,8 @@ PALP_INLINE void rowSumsOfOne(const float* block, int columns, const double* x, 
     store(sums + i * packSize, (partial[0][i] + partial[1][i]) + (partial[2][i] + partial[3][i]));
 }
 
-/// x[k] -= sum over b and r of blocks[b][k][r] t[b][r], for some blocks that stand `size` numbers apart; as
-/// many before them come next.
+/// x[k] -= sum over b and r of blocks[b][k][r] t[b][r], for several blocks, `size` numbers apart; as many
+/// blocks before them come next.
 template <int Blocks>
 PALP_INLINE void subtractTransposedOfOne(const float* blocks, std::size_t size, int columns, const double* t,
                                          double* x) {
@@ -333,8 +334,8 @@ PALP_INLINE void evaluatePolynomials(const double* coefficients, int terms, cons
 /// An element's part of values at the nodes.
 PALP_INLINE void gatherRows(const double* values, const int* nodes, int count, double* out) {
   for (int n = 0; n < count; ++n) {
-    const double* node = values + 3 * std::size_t(nodes[n]) * batchLanes;
-    for (int d = 0; d < 3; ++d, node += batchLanes, out += 8)
+    const double* node = values + 3 * std::size_t(nodes[n]) * batchColumns;
+    for (int d = 0; d < 3; ++d, node += batchColumns, out += 8)
       for (int lane = 0; lane < 8; lane += packSize) store(out + lane, load(node + lane));
   }
 }
@@ -342,15 +343,15 @@ PALP_INLINE void gatherRows(const double* values, const int* nodes, int count, d
 /// values -= an element's forces at its nodes.
 PALP_INLINE void subtractRows(const double* forces, const int* nodes, int count, double* values) {
   for (int n = 0; n < count; ++n) {
-    double* node = values + 3 * std::size_t(nodes[n]) * batchLanes;
-    for (int d = 0; d < 3; ++d, node += batchLanes, forces += 8)
+    double* node = values + 3 * std::size_t(nodes[n]) * batchColumns;
+    for (int d = 0; d < 3; ++d, node += batchColumns, forces += 8)
       for (int lane = 0; lane < 8; lane += packSize) store(node + lane, load(node + lane) - load(forces + lane));
   }
 }
 
-/// Lane `lane` and those beside it of scale x[row].
+/// Lanes from `lane` on, one register, of scale x[row].
 PALP_INLINE Pack scaled(const float* x, int row, const double* scale, int lane) {
-  return load(scale + lane) * wide(loadNarrow(x + std::size_t(row) * batchLanes + lane));
+  return load(scale + lane) * wide(loadNarrow(x + std::size_t(row) * batchColumns + lane));
 }
 
 PALP_INLINE void gatherScaledRows(const float* x, const int* rows, const double* scale, const int* nodes, int count,

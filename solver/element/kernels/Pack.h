@@ -7,7 +7,7 @@
 
 namespace palp::PALP_KERNEL {
 
-/// As many doubles as the instruction set takes at once.
+/// One SIMD register of doubles.
 typedef double Pack __attribute__((vector_size(8 * PALP_PACK)));
 constexpr int packSize = PALP_PACK;
 

@@ -27,30 +27,30 @@ PALP_INLINE void sumsOfEight(const double* matrix, const double* values, int cou
 
 PALP_INLINE void squaresOfLanes(const double* x, int rows, double* __restrict__ sums) {
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < batchLanes; ++k)
-      sums[k] += x[std::size_t(i) * batchLanes + k] * x[std::size_t(i) * batchLanes + k];
+    for (int k = 0; k < batchColumns; ++k)
+      sums[k] += x[std::size_t(i) * batchColumns + k] * x[std::size_t(i) * batchColumns + k];
 }
 
 PALP_INLINE void scaledFloats(const double* __restrict__ x, const double* __restrict__ scale, const int* order,
                               int rows, float* __restrict__ out) {
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < batchLanes; ++k)
-      out[std::size_t(order[i]) * batchLanes + k] = float(x[std::size_t(i) * batchLanes + k] * scale[k]);
+    for (int k = 0; k < batchColumns; ++k)
+      out[std::size_t(order[i]) * batchColumns + k] = float(x[std::size_t(i) * batchColumns + k] * scale[k]);
 }
 
 PALP_INLINE void scaledDoubles(const float* __restrict__ x, const double* __restrict__ scale, const int* order,
                                int rows, double* __restrict__ out) {
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < batchLanes; ++k)
-      out[std::size_t(i) * batchLanes + k] = scale[k] * double(x[std::size_t(order[i]) * batchLanes + k]);
+    for (int k = 0; k < batchColumns; ++k)
+      out[std::size_t(i) * batchColumns + k] = scale[k] * double(x[std::size_t(order[i]) * batchColumns + k]);
 }
 
 /// from -= K x.
 PALP_INLINE void subtractOfLanes(const LowerTriangle& K, const double* x, double* from) {
-  constexpr int packs = batchLanes / packSize;
+  constexpr int packs = batchColumns / packSize;
   for (int j = 0; j < K.size; ++j) {
-    const double* own = x + std::size_t(j) * batchLanes;
-    double* out = from + std::size_t(j) * batchLanes;
+    const double* own = x + std::size_t(j) * batchColumns;
+    double* out = from + std::size_t(j) * batchColumns;
     for (int p = 0; p < packs; p += packs < 4 ? packs : 4) { // as many as there are registers for
       constexpr int some = packs < 4 ? packs : 4;
       Pack at[some], sum[some];
@@ -60,7 +60,7 @@ PALP_INLINE void subtractOfLanes(const LowerTriangle& K, const double* x, double
         sum[i] = load(out + (p + i) * packSize) - K.values[diagonal] * at[i];
       }
       for (int k = diagonal + 1; k < K.columns[j + 1]; ++k) {
-        const std::size_t row = std::size_t(K.rows[k]) * batchLanes + std::size_t(p) * packSize;
+        const std::size_t row = std::size_t(K.rows[k]) * batchColumns + std::size_t(p) * packSize;
         const double value = K.values[k];
         for (int i = 0; i < some; ++i) {
           sum[i] -= value * load(x + row + i * packSize);

@@ -8,7 +8,7 @@ namespace palp::PALP_KERNEL {
 // terms of the stress that cancel at rest are left out: so it is exact to a few times 1e-7 of itself under the smallest
 // load as well.
 
-/// As many floats as the instruction set takes at once, and as there are lanes.
+/// Floats per SIMD register, at most 8 lanes.
 constexpr int singlePackSize = PALP_PACK < 4 ? 2 * PALP_PACK : 8;
 typedef float Single __attribute__((vector_size(4 * singlePackSize)));
 typedef double WideSingle __attribute__((vector_size(8 * singlePackSize)));

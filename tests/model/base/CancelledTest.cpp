@@ -11,10 +11,10 @@ namespace {
 
 TEST(Cancelled, IsThrownWhereItWasAskedToStopAndOnlyThere) {
   std::stop_source source;
-  EXPECT_NO_THROW(stopIfAsked({}));
-  EXPECT_NO_THROW(stopIfAsked(source.get_token()));
+  EXPECT_NO_THROW(throwIfStopped({}));
+  EXPECT_NO_THROW(throwIfStopped(source.get_token()));
   source.request_stop();
-  EXPECT_THROW(stopIfAsked(source.get_token()), Cancelled);
+  EXPECT_THROW(throwIfStopped(source.get_token()), Cancelled);
 }
 
 /// What refuses bad input catches palp::Error; a cancel must pass it by.

@@ -48,7 +48,7 @@ Eigen::MatrixXd gaussians(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   });
 }
 
-/// [inputs, 1] or 1 alone or nothing, one row a sample.
+/// [inputs, 1] or 1 alone or nothing, one row per sample.
 Eigen::MatrixXd kernelRegressors(const Eigen::MatrixXd& x, Tail tail) {
   const Eigen::Index inputs = tail == Tail::Linear ? x.rows() : 0;
   Eigen::MatrixXd p(x.cols(), tail == Tail::Linear || tail == Tail::Bias ? inputs + 1 : 0);

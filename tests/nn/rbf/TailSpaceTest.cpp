@@ -27,7 +27,7 @@ Eigen::MatrixXd symmetric() {
   return half + half.transpose();
 }
 
-/// P = [inputs, 1], one row a sample.
+/// P = [inputs, 1], one row per sample.
 Eigen::MatrixXd regressors() {
   Eigen::MatrixXd p(kSamples, kInputs + 1);
   p << inputs().transpose(), Eigen::VectorXd::Ones(kSamples);

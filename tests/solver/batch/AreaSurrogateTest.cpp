@@ -20,7 +20,7 @@ struct Fit {
 
   explicit Fit(double tolerance, const SensorDesign& d = paperDesign())
       : design(d), problem(d, sensorMesh(d, {.meshSize_mm = 12, .mapped = {}})),
-        engine(problem, problem.parts().initialTangent(2, {}), tolerance, 2),
+        engine(problem, problem.block().initialTangent(2, {}), tolerance, 2),
         surrogate(AreaSurrogate::fit(engine, design, std::array{kArea}, tolerance, {}).front()) {}
 };
 

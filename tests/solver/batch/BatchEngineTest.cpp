@@ -27,7 +27,7 @@ const HyperelasticProblem& fewHexahedra() {
 const std::vector<LoadCase> gentleAndHuge{onArea(1, 0.5, 0, -3), onArea(1, 0, 0, -150), onArea(1, 0, -1, -1)};
 
 TEST(BatchEngine, LeavesALoadUnansweredThatTheTangentAtRestDoesNotSolve) {
-  BatchEngine engine(problem(), problem().parts().initialTangent(2, {}), 1e-6, 2);
+  BatchEngine engine(problem(), problem().block().initialTangent(2, {}), 1e-6, 2);
   const auto answers = engine.solve(gentleAndHuge, 1e-6, {}, {});
   ASSERT_EQ(answers.size(), gentleAndHuge.size());
   EXPECT_FALSE(answers[1]);
@@ -41,7 +41,7 @@ TEST(BatchEngine, LeavesALoadUnansweredThatTheTangentAtRestDoesNotSolve) {
 
 // A load outside the force range has no predictor and begins at rest; what stands beside it may begin elsewhere.
 TEST(BatchEngine, AnswersALoadThatBeginsAtRestWithTheSameBytesBesideAnyOther) {
-  BatchEngine engine(problem(), problem().parts().initialTangent(2, {}), 1e-6, 1);
+  BatchEngine engine(problem(), problem().block().initialTangent(2, {}), 1e-6, 1);
   const std::vector<LoadCase> mixed{onArea(1, 0.3, 0, -9), onArea(1, 0.5, 0, -3)};
   const auto both = engine.solve(mixed, 1e-6, {}, {});
   const auto alone = engine.solve(std::span(mixed).first(1), 1e-6, {}, {});
@@ -51,7 +51,7 @@ TEST(BatchEngine, AnswersALoadThatBeginsAtRestWithTheSameBytesBesideAnyOther) {
 }
 
 TEST(BatchEngine, CountsEveryLoadOnceInItsProgress) {
-  BatchEngine engine(problem(), problem().parts().initialTangent(2, {}), 1e-6, 2);
+  BatchEngine engine(problem(), problem().block().initialTangent(2, {}), 1e-6, 2);
   const std::vector<LoadCase> many(100, gentleAndHuge[0]); // in four groups
   std::vector<std::size_t> counts;
   ASSERT_EQ(engine.solve(many, 1e-6, [&](std::size_t count) { counts.push_back(count); }, {}).size(), many.size());
@@ -73,7 +73,7 @@ TEST(BatchSolver, TakesFullNewtonWhereTheBatchFails) {
   EXPECT_EQ(batch.solves(), 32U + gentleAndHuge.size() + 2U);
   ASSERT_TRUE(batch.measuredError().has_value());
   EXPECT_LT(*batch.measuredError(), 1e-5);
-  EXPECT_TRUE(batch.doubts().empty());
+  EXPECT_TRUE(batch.nonUniqueLoads().empty());
 }
 
 TEST(BatchSolver, NamesTheLoadThatHasNoSolution) {

@@ -133,7 +133,7 @@ TEST(TouchablePoints, OfABallBelowTheFaceAreThoseItPassedOnItsWay) {
   };
   EXPECT_EQ(touchable(1.1, 1), 13U) << "as wide as the ball";
   EXPECT_EQ(touchable(2.1, touchableMargin), 13U);
-  EXPECT_EQ(touchable(0.8, touchableMargin * widerMargin), 13U);
+  EXPECT_EQ(touchable(0.8, touchableMargin * marginGrowth), 13U);
 }
 
 const Motion kAMillimetreDeep{1, {0, 0}}, kSlidByAMillimetre{0.6, {1, 0}};

@@ -69,7 +69,7 @@ TEST(ReducedContact, AnswersAWayAsideThatIsLongBesideTheSlip) {
       ASSERT_TRUE(contact.solve(compliance, places(), {moved(0, -0.15)}, state, {}));
       const Eigen::Matrix3Xd pressed_mm = places();
       const Eigen::Matrix3Xd before_mm = pressed_mm.colwise() - state.translations_mm.col(0);
-      const std::vector<Grip> gripped = state.grips;
+      const std::vector<ContactStatus> statusesBefore = state.statuses;
       contact.startStep(pressed_mm, state);
       ASSERT_TRUE(contact.solve(compliance, pressed_mm, {moved(aside_mm, -0.15)}, state, {}));
       const Eigen::Matrix3Xd x = places();
@@ -83,7 +83,9 @@ TEST(ReducedContact, AnswersAWayAsideThatIsLongBesideTheSlip) {
         const Eigen::Vector3d along = f - p * n;
         EXPECT_GE(p, -1e-12);
         EXPECT_LE(along.norm(), friction * p * (1 + 1e-6) + 1e-12);
-        if (state.grips[std::size_t(i)] != Grip::Sticks || gripped[std::size_t(i)] == Grip::Free) continue;
+        if (state.statuses[std::size_t(i)] != ContactStatus::Stick ||
+            statusesBefore[std::size_t(i)] == ContactStatus::Open)
+          continue;
         ++sticking;
         const Eigen::Vector3d slip = place - before_mm.col(i);
         EXPECT_LT((slip - slip.dot(n) * n).norm(), 1e-9);

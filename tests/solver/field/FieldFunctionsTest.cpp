@@ -21,8 +21,8 @@ struct Pressed {
   explicit Pressed(unsigned seed, const std::function<double(const Eigen::Vector3d&)>& pressure)
       : mesh(sensorMesh(randomLayout(seed, 0.8))), functions(mesh, conductivity(pressure), 2) {}
 
-  [[nodiscard]] Conductivity conductivity(const std::function<double(const Eigen::Vector3d&)>& pressure) const {
-    Conductivity k{Eigen::VectorXd(mesh.nodes()), {.p0_MPa = 0.1, .exponent = 1.5}};
+  [[nodiscard]] FieldConductivity conductivity(const std::function<double(const Eigen::Vector3d&)>& pressure) const {
+    FieldConductivity k{Eigen::VectorXd(mesh.nodes()), {.p0_MPa = 0.1, .exponent = 1.5}};
     for (int n = 0; n < mesh.nodes(); ++n) k.pressures_MPa(n) = pressure(mesh.tets().nodes_mm.col(n));
     return k;
   }
@@ -105,17 +105,18 @@ TEST_P(FieldFunctionsOf, HaveTheirDerivatives) {
 
 TEST_P(FieldFunctionsOf, MakeUpWhatAQuadraticFunctionLeavesOfTheInverseRoot) {
   const Pressed pressed(GetParam(), wave);
-  const Conductivity& k = pressed.functions.conductivity();
+  const FieldConductivity& k = pressed.functions.conductivity();
   const Eigen::Vector4d place(0.4, 0.3, 0.2, 0.1);
   for (int e = 0; e < pressed.mesh.elements(); ++e) {
     const Eigen::Matrix<double, 10, 1> pressures = k.pressures_MPa(pressed.mesh.tets().elements.col(e));
     const FieldFunctions::Point there = pressed.functions.at(e, place);
     double made = -there.values.tail<4>().sum();
-    for (int n = 0; n < 10; ++n) made += there.values(n) * std::exp(-k.half(pressures(n)));
+    for (int n = 0; n < 10; ++n) made += there.values(n) * std::exp(-k.halfLogConductivity(pressures(n)));
     int rough = 0;
     for (int corner = 0; corner < 4; ++corner)
       rough += pressed.functions.isRough(pressed.mesh.tets().elements(corner, e)) ? 1 : 0;
-    EXPECT_NEAR(made, std::exp(-k.half(there.values.head<10>().dot(pressures))), rough == 4 ? 1e-14 : 2e-3)
+    EXPECT_NEAR(made, std::exp(-k.halfLogConductivity(there.values.head<10>().dot(pressures))),
+                rough == 4 ? 1e-14 : 2e-3)
         << "element " << e;
   }
 }

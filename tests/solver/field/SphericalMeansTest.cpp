@@ -24,7 +24,7 @@ struct Middle {
                                    const Eigen::Matrix3d& stretch = Eigen::Matrix3d::Identity()) const {
     const Mesh& tets = mesh.tets();
     // So stiff a law that ln(1 + p / p0) is p / p0 to 1e-6.
-    Conductivity k{Eigen::VectorXd(tets.nodes_mm.cols()), {.p0_MPa = 1e6, .exponent = 2e6}};
+    FieldConductivity k{Eigen::VectorXd(tets.nodes_mm.cols()), {.p0_MPa = 1e6, .exponent = 2e6}};
     const Eigen::Matrix3Xd nodes = stretch * tets.nodes_mm;
     const Eigen::Vector4d inside(0.1, 0.2, 0.3, 0.4);
     const auto corners = tets.elements.col(element()).head<4>();

@@ -34,9 +34,9 @@ Values atNodes(const Eigen::Vector4d& corners) {
 
 } // namespace
 
-TEST(TetPointsBesideKink, AreThoseOfTheRuleWhereNoSignChanges) {
+TEST(TetPointsAroundKink, AreThoseOfTheRuleWhereNoSignChanges) {
   for (const double sign : {-1., 1.}) {
-    const std::vector<TetPoint> points = tetPointsBesideKink(sign * Values::Ones());
+    const std::vector<TetPoint> points = tetPointsAroundKink(sign * Values::Ones());
     ASSERT_EQ(points.size(), std::size_t(TetRule::points));
     for (std::size_t q = 0; q < points.size(); ++q) {
       EXPECT_EQ(points[q].barycentric, tetRule().barycentric[q]);
@@ -45,13 +45,13 @@ TEST(TetPointsBesideKink, AreThoseOfTheRuleWhereNoSignChanges) {
   }
 }
 
-TEST(TetPointsBesideKink, HaveTheVolumeOnEitherSideOfAPlane) {
+TEST(TetPointsAroundKink, HaveTheVolumeOnEitherSideOfAPlane) {
   std::mt19937 engine(5);
   for (int trial = 0; trial < 200; ++trial) {
     Eigen::Vector4d corners;
     for (double& v : corners) v = engine() / 2147483648. - 1;
     double positive = 0, all = 0;
-    for (const TetPoint& point : tetPointsBesideKink(atNodes(corners))) {
+    for (const TetPoint& point : tetPointsAroundKink(atNodes(corners))) {
       EXPECT_GE(point.barycentric.minCoeff(), 0);
       EXPECT_NEAR(point.barycentric.sum(), 1, 1e-12);
       EXPECT_GE(point.weight, 0);
@@ -63,7 +63,7 @@ TEST(TetPointsBesideKink, HaveTheVolumeOnEitherSideOfAPlane) {
   }
 }
 
-TEST(TetPointsBesideKink, FillTheTetrahedronWhateverNodesArePositive) {
+TEST(TetPointsAroundKink, FillTheTetrahedronWhateverNodesArePositive) {
   // Exact to degree 2 on each piece, so on the whole: the integral of the product of two coordinates is 1/20, of a
   // square 1/10 of the volume.
   const Eigen::Matrix4d exact = (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity()) / 20;
@@ -71,7 +71,7 @@ TEST(TetPointsBesideKink, FillTheTetrahedronWhateverNodesArePositive) {
     Values values;
     for (int n = 0; n < 10; ++n) values(n) = (pattern >> unsigned(n)) % 2 == 1 ? 1 + n : -2. / (1 + n);
     Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-    for (const TetPoint& point : tetPointsBesideKink(values)) {
+    for (const TetPoint& point : tetPointsAroundKink(values)) {
       EXPECT_GE(point.barycentric.minCoeff(), 0) << pattern;
       moments += point.weight * point.barycentric * point.barycentric.transpose();
     }
@@ -79,11 +79,11 @@ TEST(TetPointsBesideKink, FillTheTetrahedronWhateverNodesArePositive) {
   }
 }
 
-TEST(TetPointsBesideKink, AZeroAtANodeLeavesNothingOut) {
+TEST(TetPointsAroundKink, AZeroAtANodeLeavesNothingOut) {
   for (const Eigen::Vector4d& corners : {Eigen::Vector4d(1, 0, 0, 0), Eigen::Vector4d(0, 0, -1, 1),
                                          Eigen::Vector4d(0, -1, 0, 0), Eigen::Vector4d(1, 1, 0, 0)}) {
     double all = 0;
-    for (const TetPoint& point : tetPointsBesideKink(atNodes(corners))) {
+    for (const TetPoint& point : tetPointsAroundKink(atNodes(corners))) {
       EXPECT_TRUE(point.barycentric.allFinite()) << corners.transpose();
       all += point.weight;
     }

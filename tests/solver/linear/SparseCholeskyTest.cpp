@@ -77,7 +77,7 @@ TEST_P(CholeskyOf, SolvesForManyRightSidesAsForEachOfThem) {
   LaneSides sides(static_cast<int>(b.size()), 1); // one row more, held at 0
   LaneSides::Lanes right = sides.lanes(sides.right);
   right.setOnes();
-  for (int lane = 0; lane < batchLanes; ++lane)
+  for (int lane = 0; lane < batchColumns; ++lane)
     right.col(lane).tail(b.size()) = std::pow(10., lane - 16) * (b + Eigen::VectorXd::Unit(b.size(), lane));
   right.col(5).setZero(); // of no load
   const Eigen::MatrixXd asked = right.bottomRows(b.size());
@@ -85,7 +85,7 @@ TEST_P(CholeskyOf, SolvesForManyRightSidesAsForEachOfThem) {
   const Eigen::MatrixXd found = sides.lanes(sides.x);
   EXPECT_TRUE(found.row(0).isZero(0));
   EXPECT_TRUE(found.col(5).isZero(0));
-  for (int lane = 0; lane < batchLanes; ++lane) {
+  for (int lane = 0; lane < batchColumns; ++lane) {
     const Eigen::VectorXd x = found.col(lane).tail(b.size());
     EXPECT_LE((asked.col(lane) - tangent.times(x)).norm(), 1e-5 * asked.col(lane).norm()) << lane;
   }
@@ -101,7 +101,7 @@ TEST(Cholesky, SolvesWithProductsInSinglePrecisionAndTheSameBytesOnAnyNumberOfTh
   usual.solve(inDouble);
   for (const int threads : {1, 2}) {
     SparseCholesky cholesky(tangent.plan);
-    ASSERT_EQ(cholesky.factorise(tangent.values, threads, {}, Products::Single), SparseCholesky::Outcome::Done);
+    ASSERT_EQ(cholesky.factorise(tangent.values, threads, {}, UpdatePrecision::Single), SparseCholesky::Outcome::Done);
     Eigen::VectorXd x = b;
     cholesky.solve(x);
     EXPECT_LT((b - tangent.times(x)).norm(), 1e-7 * b.norm());
@@ -207,15 +207,15 @@ TEST(Cholesky, OneRightSideAgreesWithLanesAndTheBaselineWithTheWidest) {
   Eigen::VectorXd widest(size + 1), lane(size);
   widest << tangent.rightSide(), 0;
   Eigen::VectorXd baseline = widest;
-  std::vector<float, CacheLineAllocator<float>> lanes((size + 1) * batchLanes);
-  for (Eigen::Index i = 0; i < size; ++i) lanes[i * batchLanes + 5] = static_cast<float>(widest(i));
+  std::vector<float, CacheLineAllocator<float>> lanes((size + 1) * batchColumns);
+  for (Eigen::Index i = 0; i < size; ++i) lanes[i * batchColumns + 5] = static_cast<float>(widest(i));
   laneKernels().forwardOne(L, 0, L.count, widest.data());
   laneKernels().backwardOne(L, 0, L.count, widest.data());
   baseline::laneKernelSet.forwardOne(L, 0, L.count, baseline.data());
   baseline::laneKernelSet.backwardOne(L, 0, L.count, baseline.data());
   laneKernels().forward(L, 0, L.count, 1U, lanes.data());
   laneKernels().backward(L, 0, L.count, 1U, lanes.data());
-  for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * batchLanes + 5];
+  for (Eigen::Index i = 0; i < size; ++i) lane(i) = lanes[i * batchColumns + 5];
   EXPECT_LT((widest - baseline).head(size).norm(), 1e-9 * widest.norm()); // rounding, times a condition of 1e6
   EXPECT_LT((widest.head(size) - lane).norm(), 1e-2 * widest.norm());     // in single precision
 }
@@ -228,8 +228,8 @@ TEST(LaneKernels, SubstituteTheSameBytesWhicheverOtherBlocksAreLive) {
   const BlockedFactor L = cholesky.blocks();
   const std::size_t size = tangent.plan->tree().size();
   const auto substituted = [&](const LaneKernels& kernels, unsigned live) {
-    std::vector<float> x((size + 1) * batchLanes);
-    for (std::size_t i = 0; i < size * batchLanes; ++i) x[i] = std::sin(3.F * static_cast<float>(i % 10007));
+    std::vector<float> x((size + 1) * batchColumns);
+    for (std::size_t i = 0; i < size * batchColumns; ++i) x[i] = std::sin(3.F * static_cast<float>(i % 10007));
     kernels.forward(L, 0, L.count, live, x.data());
     kernels.backward(L, 0, L.count, live, x.data());
     return x;
@@ -239,8 +239,8 @@ TEST(LaneKernels, SubstituteTheSameBytesWhicheverOtherBlocksAreLive) {
     for (unsigned live = 0; live < 15; ++live) {
       const std::vector<float> some = substituted(*kernels, live);
       for (std::size_t i = 0; i < some.size(); ++i)
-        if (live >> (i % batchLanes / lanes) & 1U) {
-          ASSERT_EQ(some[i], all[i]) << "live " << live << ", lane " << i % batchLanes;
+        if (live >> (i % batchColumns / lanes) & 1U) {
+          ASSERT_EQ(some[i], all[i]) << "live " << live << ", lane " << i % batchColumns;
         }
     }
   }

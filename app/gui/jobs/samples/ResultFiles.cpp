@@ -174,7 +174,7 @@ void openKept(const fs::path& folder, OpenedResults& opened, const std::stop_tok
   std::size_t unnamed = 0;
   for (std::size_t k = 0; k < stems.size(); ++k) {
     const std::string& stem = stems[k];
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     progress(static_cast<double>(k) / static_cast<double>(stems.size()),
              "Network " + std::to_string(k + 1) + " of " + std::to_string(stems.size()));
     // Those that left the list because it was full stay away.

@@ -140,7 +140,7 @@ CurrentLines currentLines(const Mesh& mesh, const CurrentSources& sources, const
   const Eigen::Matrix3Xd begin = beginnings(sources, all.current_A);
   const Eigen::Vector3d size_mm = mesh.nodes_mm.rowwise().maxCoeff() - mesh.nodes_mm.rowwise().minCoeff();
   const auto grid = gridOf(mesh, sources);
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   vtkNew<vtkStreamTracer> tracer;
   tracer->SetInputData(grid);
   tracer->SetInterpolatorTypeToCellLocator();
@@ -156,7 +156,7 @@ CurrentLines currentLines(const Mesh& mesh, const CurrentSources& sources, const
   tracer->SetComputeVorticity(false);
   tracer->SetIntegrationDirectionToForward();
   for (Eigen::Index first = 0; first < begin.cols(); first += kLinesAtOnce) {
-    stopIfAsked(stop);
+    throwIfStopped(stop);
     vtkNew<vtkPolyData> seeds;
     seeds->SetPoints(pointsOf(begin.middleCols(first, std::min(kLinesAtOnce, begin.cols() - first))));
     tracer->SetSourceData(seeds);

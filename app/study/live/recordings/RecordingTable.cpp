@@ -118,7 +118,7 @@ RecordingTableReport writeRecordingTable(const RecordingTableRequest& request,
     std::this_thread::sleep_for(kLook);
   }
   session.stop();
-  stopIfAsked(stop);
+  throwIfStopped(stop);
   if (status.state == LiveState::Refused) throw Error(status.reason);
   table->commit(request.table);
   return {table->frames(), status.decoderProblem.empty() ? status.reason : status.decoderProblem};

@@ -1,6 +1,7 @@
 #include "app/study/reports/layout/LayoutBound.h"
 
 #include "app/study/reports/layout/FieldResponse.h"
+#include "model/base/InverseDiagonal.h"
 
 #include <Eigen/Dense>
 
@@ -33,13 +34,6 @@ Eigen::MatrixX3d logSensitivity(const SensorDesign& layout, const ElectrodeRespo
     result.col(axis) = change.cwiseQuotient(resistances);
   }
   return result;
-}
-
-/// Square roots of the diagonal of the inverse; infinite where the matrix is singular to working precision.
-Eigen::Vector3d deviations(const Eigen::Matrix3d& information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
-  if (!(eigen.eigenvalues()(0) > 1e-14 * eigen.eigenvalues()(2))) return Eigen::Vector3d::Constant(kInfinity);
-  return (eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse()).cwiseSqrt();
 }
 
 Eigen::Vector3d rowsRootMeanSquare(const Eigen::Matrix3Xd& values) {
@@ -79,8 +73,9 @@ LayoutBound boundOf(const std::vector<Eigen::Matrix3d>& information) {
   LayoutBound bound{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
   for (Eigen::Index area = 0; area < count; ++area) {
     const Eigen::Matrix3d& measured = information[static_cast<std::size_t>(area)];
-    bound.withoutPrior_percent.col(area) = 100 * deviations(measured);
-    bound.withPrior_percent.col(area) = 100 * deviations(measured + kUniformPrecision * Eigen::Matrix3d::Identity());
+    bound.withoutPrior_percent.col(area) = 100 * inverseDiagonal(measured).cwiseSqrt();
+    const Eigen::Matrix3d withPrior = measured + kUniformPrecision * Eigen::Matrix3d::Identity();
+    bound.withPrior_percent.col(area) = 100 * inverseDiagonal(withPrior).cwiseSqrt();
   }
   return bound;
 }

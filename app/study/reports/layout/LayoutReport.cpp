@@ -243,36 +243,36 @@ private:
         stop_);
     if (!sets) return false;
     const NoiseBound bound = noiseBound(sets->test, InputKind::Resistance, {row_}, kLayoutNoise);
-    for (const Rival& rival :
-         {Rival{"rbf", DecoderKind::Rbf, false}, Rival{"rbf, one per area", DecoderKind::Rbf, true},
-          Rival{"ml", DecoderKind::MaximumLikelihood, false}}) {
+    for (const Baseline& baseline :
+         {Baseline{"rbf", DecoderKind::Rbf, false}, Baseline{"rbf, one per area", DecoderKind::Rbf, true},
+          Baseline{"ml", DecoderKind::MaximumLikelihood, false}}) {
       if (stop_.stop_requested()) return false;
-      share += (rival.kind == DecoderKind::Rbf && !rival.areaKnown ? 0.67 : 0.11) * each;
-      say(share, rival.name + ", " + layout.name);
-      addRival(layout, *sets, rival, bound, table);
+      share += (baseline.kind == DecoderKind::Rbf && !baseline.areaKnown ? 0.67 : 0.11) * each;
+      say(share, baseline.name + ", " + layout.name);
+      addBaseline(layout, *sets, baseline, bound, table);
     }
     return true;
   }
 
   /// A way to decode; `areaKnown`: a decoder for each area.
-  struct Rival {
+  struct Baseline {
     std::string name;
     DecoderKind kind;
     bool areaKnown;
   };
 
-  void addRival(const NamedLayout& layout, const TwoSets& sets, const Rival& rival, const NoiseBound& bound,
-                ReportTable& table) {
+  void addBaseline(const NamedLayout& layout, const TwoSets& sets, const Baseline& baseline, const NoiseBound& bound,
+                   ReportTable& table) {
     TrainOptions options;
     options.input = InputKind::Resistance;
     options.rows = std::to_string(row_);
-    options.decoder = rival.kind;
+    options.decoder = baseline.kind;
     options.noise = kLayoutNoise;
     options.seed = request_.seed;
     options.threads = request_.threads;
-    const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
+    const NoisyError error = (baseline.areaKnown ? noisyErrorAreaKnown : noisyError)(
         layout.design, sets, options, kLayoutNoise, request_.seed, content_.stages, stop_);
-    Cells cells{layout.name, rival.name};
+    Cells cells{layout.name, baseline.name};
     if (!error.failed.empty()) {
       cells.insert(cells.end(),
                    {"failed: " + error.failed, triple(bound.withPriorPercent), triple(bound.withoutPriorPercent), "-"});
@@ -286,14 +286,14 @@ private:
     table.rows.push_back(std::move(cells));
     table.marks.push_back(ratio <= 1.5 ? ReportTable::Mark::Good : ReportTable::Mark::Doubtful);
     for (int axis = 0; axis < 3; ++axis) {
-      csv_.add({"confirmed error [%], " + rival.name, layout.name, row_, "", kForces[axis], "",
+      csv_.add({"confirmed error [%], " + baseline.name, layout.name, row_, "", kForces[axis], "",
                 error.rmse_percentOfRange(axis)});
       csv_.add(
           {"confirmed bound with prior [%]", layout.name, row_, "", kForces[axis], "", bound.withPriorPercent(axis)});
       csv_.add({"confirmed bound without prior [%]", layout.name, row_, "", kForces[axis], "",
                 bound.withoutPriorPercent(axis)});
     }
-    ratios_.push_back({layout.name, rival.name, ratio});
+    ratios_.push_back({layout.name, baseline.name, ratio});
   }
 
   void leftOut() {

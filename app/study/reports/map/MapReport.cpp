@@ -200,7 +200,7 @@ private:
     BatchSolver batch(problem, options);
     const auto resistances = resistancesOf(problem, batch, options, loads);
     if (resistances.empty()) return false;
-    const Eigen::MatrixXd rest = resistancesAtRest();
+    const Eigen::MatrixXd rest = resistancesAtRest_ohm(design_);
     double left = 0, whole = 0;
     for (std::size_t i = 0; i < touches.size(); ++i) {
       const Eigen::VectorXd solved = (resistances[i].array() / rest.array()).log().matrix().reshaped();
@@ -219,12 +219,6 @@ private:
     for (const ElectrodeDisplacements& moved : batch.solve(loads, {}, stop_))
       result.push_back(rowColumnResistances(design_, moved));
     return result;
-  }
-
-  Eigen::MatrixXd resistancesAtRest() const {
-    if (const FieldLaw* law = design_.field())
-      return NetworkReading(networkAtRest(design_, *law), law->readout).resistances_ohm();
-    return rowColumnResistances(design_, ElectrodeDisplacements::atRest(design_));
   }
 
   void assumed() {

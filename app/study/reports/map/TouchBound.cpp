@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMedianOfNormal = 0.67449;    // of |z|, z normal with deviation 1
 constexpr double kSizeStep = 0.02;             // relative, of the difference that the slope is taken from
-constexpr Eigen::Index kTouchCauses = 7;       // of DecoderTraining::fitTouches: force, place, size, friction
+constexpr Eigen::Index kTouchParameters = 7;   // of DecoderTraining::fitTouches: force, place, size, friction
 constexpr double kMedianOfRayleigh = 1.177410; // of a distance in the plane whose coordinates have deviation 1
 
 Indenter touchOf(const SampleSet& samples, Eigen::Index i) {
@@ -77,17 +77,18 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
 std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise,
                                            const std::stop_token& stop) {
   const auto* model = std::get_if<KernelForwardModel>(&decoder.model);
-  if (model == nullptr || model->causes() != kTouchCauses || decoder.correction || !samples.hasTouches()) return {};
+  if (model == nullptr || model->parameters() != kTouchParameters || decoder.correction || !samples.hasTouches())
+    return {};
   const double counted = std::max(decoder.noise, leastTouchNoise); // that the components are in
   const std::vector<Eigen::Index> varied = model->varied();
   std::vector<TouchDeviations> bounds;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     if (stop.stop_requested()) return {};
-    Eigen::VectorXd causes(kTouchCauses);
-    causes << samples.forces_N.col(i), samples.touches.col(i).segment<2>(kTouchX_mm), samples.touches(kTouchSize_mm, i),
-        samples.touches(kTouchFriction, i);
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(causes.size());
-    all(varied) = leastDeviations(counted / relativeNoise * model->slopes(causes)(Eigen::all, varied));
+    Eigen::VectorXd parameters(kTouchParameters);
+    parameters << samples.forces_N.col(i), samples.touches.col(i).segment<2>(kTouchX_mm),
+        samples.touches(kTouchSize_mm, i), samples.touches(kTouchFriction, i);
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(parameters.size());
+    all(varied) = leastDeviations(counted / relativeNoise * model->slopes(parameters)(Eigen::all, varied));
     bounds.push_back({all.head<3>(), all.segment<2>(3)});
   }
   return bounds;

@@ -5,6 +5,7 @@
 #include "model/FieldSensitivity.h"
 #include "model/RowColumnResistance.h"
 #include "model/base/GotExpected.h"
+#include "model/base/InverseDiagonal.h"
 
 #include <Eigen/Dense>
 
@@ -186,11 +187,8 @@ LinearReadings readingsAtRest(const SensorDesign& design, int threads, const std
 Eigen::VectorXd leastDeviations(Eigen::MatrixXd slopes) {
   const Eigen::VectorXd scale = slopes.colwise().norm(); // forces and places are of different units
   slopes *= scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(slopes.transpose() * slopes);
-  if (!(eigen.eigenvalues()(0) > 1e-13))
-    return Eigen::VectorXd::Constant(slopes.cols(), std::numeric_limits<double>::infinity());
-  const Eigen::VectorXd variances = eigen.eigenvectors().cwiseAbs2() * eigen.eigenvalues().cwiseInverse();
-  return variances.cwiseSqrt().cwiseQuotient(scale);
+  const Eigen::MatrixXd information = slopes.transpose() * slopes;
+  return inverseDiagonal(information).cwiseSqrt().cwiseQuotient(scale);
 }
 
 TouchDeviations touchDeviations(const TouchInfluence& of, double Fz_N, bool held, double relativeNoise,

@@ -8,7 +8,6 @@
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/FieldAtRest.h"
-#include "model/RowColumnResistance.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
 
@@ -33,13 +32,6 @@ struct CrossLaw {
   SampleSet training{}, test{};
   Eigen::VectorXd rest_ohm{}; ///< row by row, as SampleSet has them
 };
-
-Eigen::VectorXd restingReadings(const SensorDesign& design) {
-  const FieldLaw* const law = design.field();
-  const Eigen::MatrixXd rest = law ? NetworkReading(networkAtRest(design, *law), law->readout).resistances_ohm()
-                                   : rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
-  return rest.reshaped<Eigen::RowMajor>();
-}
 
 class CrossTableWriter {
 public:
@@ -107,7 +99,7 @@ private:
   /// The same forces for every law: the first half of each area's for training. False: stopped.
   bool sample(CrossLaw& law, double share) {
     say(share, "samples by " + law.name);
-    law.rest_ohm = restingReadings(law.design);
+    law.rest_ohm = resistancesAtRest_ohm(law.design).reshaped<Eigen::RowMajor>();
     SampleRequest wanted;
     wanted.perArea = 2 * request_.perArea;
     wanted.seed = request_.seed;

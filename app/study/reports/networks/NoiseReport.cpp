@@ -37,7 +37,7 @@ struct RowChoice {
 };
 
 /// A way to decode over the noises.
-struct Rival {
+struct Baseline {
   std::string name;
   DecoderKind kind;
   bool trainedClean;
@@ -153,23 +153,23 @@ private:
                       .topLabel = "bits of an ideal converter whose full scale is R"};
     for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
     std::array<ReportCurve, 2> bounds = boundsOf(choice);
-    const std::array rivals{Rival{"rbf", DecoderKind::Rbf, false, false, 0},
-                            Rival{"rbf, one per area", DecoderKind::Rbf, false, true, 1},
-                            Rival{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
-                            Rival{"linear", DecoderKind::Linear, false, false, 3},
-                            Rival{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
-    const auto steps = static_cast<double>(rivals.size() * kNoises.size() * choices_.size());
+    const std::array baselines{Baseline{"rbf", DecoderKind::Rbf, false, false, 0},
+                               Baseline{"rbf, one per area", DecoderKind::Rbf, false, true, 1},
+                               Baseline{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
+                               Baseline{"linear", DecoderKind::Linear, false, false, 3},
+                               Baseline{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
+    const auto steps = static_cast<double>(baselines.size() * kNoises.size() * choices_.size());
     double share = 0.25 + 0.5 * done;
-    for (const Rival& rival : rivals) {
-      ReportCurve curve{.name = rival.name, .color = rival.color};
+    for (const Baseline& baseline : baselines) {
+      ReportCurve curve{.name = baseline.name, .color = baseline.color};
       for (const double noise : kNoises) {
         if (stop_.stop_requested()) return false;
-        say(share, choice.name + ": " + rival.name);
+        say(share, choice.name + ": " + baseline.name);
         share += 0.5 / steps;
-        const auto error = errorOf(choice, rival, noise, rival.trainedClean ? 0 : noise);
+        const auto error = errorOf(choice, baseline, noise, baseline.trainedClean ? 0 : noise);
         if (!error) continue;
         addPoint(curve, noise, rootMeanSquare(*error));
-        point(choice.name, rival.name, noise, noise, *error);
+        point(choice.name, baseline.name, noise, noise, *error);
       }
       if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
     }
@@ -180,19 +180,20 @@ private:
   }
 
   /// Error of a decoder trained at one noise and tested at another; a failure is listed and leaves a gap in the curve.
-  std::optional<Eigen::Vector3d> errorOf(const RowChoice& choice, const Rival& rival, double noise, double trained) {
+  std::optional<Eigen::Vector3d> errorOf(const RowChoice& choice, const Baseline& baseline, double noise,
+                                         double trained) {
     TrainOptions options;
     options.input = InputKind::Resistance;
     options.rows = choice.option;
-    options.decoder = rival.kind;
+    options.decoder = baseline.kind;
     options.noise = trained;
     options.seed = request_.seed;
     options.threads = request_.threads;
-    const NoisyError error = (rival.areaKnown ? noisyErrorAreaKnown : noisyError)(
+    const NoisyError error = (baseline.areaKnown ? noisyErrorAreaKnown : noisyError)(
         request_.design, *sets_, options, noise, request_.seed, content_.stages, stop_);
     if (error.failed.empty()) return error.rmse_percentOfRange;
     content_.warnings.push_back(words_(
-        "failed", {{"rows", choice.name}, {"decoder", rival.name}, {"noise", text(noise)}, {"why", error.failed}}));
+        "failed", {{"rows", choice.name}, {"decoder", baseline.name}, {"noise", text(noise)}, {"why", error.failed}}));
     return {};
   }
 

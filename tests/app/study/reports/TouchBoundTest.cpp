@@ -86,27 +86,27 @@ TEST(TouchBound, OfAnotherDesignOrOfNoTouchesIsRefused) {
 /// Rows of bumps along x and along y under a touch, as high as its force.
 struct BumpsUnderTouches {
   SampleSet samples;
-  Eigen::MatrixXd causes{Eigen::MatrixXd::Zero(7, 400)}, readings{40, 400};
+  Eigen::MatrixXd parameters{Eigen::MatrixXd::Zero(7, 400)}, readings{40, 400};
   BumpsUnderTouches() {
     std::mt19937 engine(5);
     std::uniform_real_distribution<double> uniform;
-    for (Eigen::Index i = 0; i < causes.cols(); ++i) {
-      causes.col(i).segment<3>(2) << -1 - 4 * uniform(engine), 4 + 12 * uniform(engine), 4 + 12 * uniform(engine);
-      for (int m = 0; m < 40; ++m) readings(m, i) = 100 - causes(2, i) * std::exp(-off(m, i) * off(m, i));
+    for (Eigen::Index i = 0; i < parameters.cols(); ++i) {
+      parameters.col(i).segment<3>(2) << -1 - 4 * uniform(engine), 4 + 12 * uniform(engine), 4 + 12 * uniform(engine);
+      for (int m = 0; m < 40; ++m) readings(m, i) = 100 - parameters(2, i) * std::exp(-off(m, i) * off(m, i));
     }
-    samples.touches = Eigen::MatrixXd::Zero(kTouchRows, causes.cols());
-    samples.touches.middleRows<2>(kTouchX_mm) = causes.middleRows<2>(3);
-    samples.forces_N = causes.topRows<3>();
-    samples.area.setZero(causes.cols());
+    samples.touches = Eigen::MatrixXd::Zero(kTouchRows, parameters.cols());
+    samples.touches.middleRows<2>(kTouchX_mm) = parameters.middleRows<2>(3);
+    samples.forces_N = parameters.topRows<3>();
+    samples.area.setZero(parameters.cols());
   }
-  [[nodiscard]] double off(int m, Eigen::Index i) const { return (m % 20 - causes(m < 20 ? 3 : 4, i)) / 3; }
+  [[nodiscard]] double off(int m, Eigen::Index i) const { return (m % 20 - parameters(m < 20 ? 3 : 4, i)) / 3; }
 };
 
 TEST(TouchBound, OfLearnedSlopesIsThatOfTheReadingsAtEachTouch) {
   const BumpsUnderTouches bumps;
   Decoder decoder;
   decoder.noise = kTouchNoise;
-  decoder.model = fitKernelForwardModel(bumps.readings, bumps.causes,
+  decoder.model = fitKernelForwardModel(bumps.readings, bumps.parameters,
                                         (Eigen::VectorXi(7) << 1, 1, 1, 0, 0, 2, 2).finished(), {kTouchNoise, 1})
                       .model;
   const auto bounds = learnedBounds(decoder, bumps.samples, kTouchNoise);
@@ -116,7 +116,7 @@ TEST(TouchBound, OfLearnedSlopesIsThatOfTheReadingsAtEachTouch) {
     for (int m = 0; m < 40; ++m) {
       const double bump = std::exp(-bumps.off(m, i) * bumps.off(m, i));
       slopes(m, 0) = -bump;
-      slopes(m, m < 20 ? 1 : 2) = -bumps.causes(2, i) * bump * 2 * bumps.off(m, i) / 3;
+      slopes(m, m < 20 ? 1 : 2) = -bumps.parameters(2, i) * bump * 2 * bumps.off(m, i) / 3;
       slopes.row(m) /= kTouchNoise * bumps.readings(m, i);
     }
     const Eigen::VectorXd expected = leastDeviations(slopes);

@@ -226,13 +226,13 @@ TEST(SampleGenerator, TwoTouchesAtOnceAreOneSolve) {
   SampleGenerator generator(paperDesign(), request);
   SampleSet all;
   generator.generate({0, 4}, [&](const SampleSet& block) { append(all, block); });
-  ASSERT_EQ(all.beside.rows(), kBesideRows);
+  ASSERT_EQ(all.secondTouch.rows(), kSecondTouchRows);
   const HyperelasticProblem problem(paperDesign(), sensorMesh(paperDesign(), request.mesh));
   for (const Eigen::Index i : {0, 3}) {
     const LoadCase load = generator.load(static_cast<std::size_t>(i));
     ASSERT_EQ(load.indenters.size(), 2U);
-    EXPECT_EQ(all.beside.col(i).segment<2>(kTouchX_mm), load.indenters[1].place_mm);
-    EXPECT_EQ(all.beside.col(i).tail<3>(), load.indenters[1].press()->force_N);
+    EXPECT_EQ(all.secondTouch.col(i).segment<2>(kTouchX_mm), load.indenters[1].place_mm);
+    EXPECT_EQ(all.secondTouch.col(i).tail<3>(), load.indenters[1].press()->force_N);
     const Solution full = problem.solve(load);
     ASSERT_TRUE(full.converged);
     const Eigen::VectorXd expected = problem.electrodes(full.state()).upper_mm.reshaped();
