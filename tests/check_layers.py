@@ -26,7 +26,7 @@ OWN = {
 DOORS = {
     "model": r"model/(base/)?\w+\.h",
     "solver": r"solver/\w+\.h",
-    "nn": r"nn/((inversion|baselines)/)?\w+\.h",
+    "nn": r"nn/((inversion|baselines|measured)/)?\w+\.h",
     "io": r"io/(board/)?\w+\.h",
 }
 BASE = r"model/base/\w+\.h"  # stands below everything: it may include itself alone

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Eigen::Index kRowsOfChoice = 2000, kRowsOfFit = 6000;
 constexpr int kCentersOfChoice = 200, kCentersOfFit = 500;
-constexpr double kTail = 10; ///< features of the line are so many times longer: penalised 100 times less
+constexpr double kTail = 10; ///< features of the line are longer by this factor: penalised 100 times less
 constexpr double kFloor =
     0.1; ///< an input that varies less than this share of the largest is not raised to deviation 1
 constexpr double kFewest = 1e-11; ///< eigenvalues of the Gaussians' matrix that count, of the largest

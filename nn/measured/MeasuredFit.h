@@ -41,7 +41,7 @@ struct MeasuredOptions {
   std::optional<double> spread;                ///< of the Gaussians, where the mean square length of the inputs is 1
   std::optional<double> ridge;                 ///< lambda of GroupRidge
   std::optional<int> centers;                  ///< at most; none: 500
-  Eigen::Index forces = -1; ///< so many of the first targets are forces, whose size counts for deviations; -1: all
+  Eigen::Index forces = -1; ///< number of first targets that are forces, whose size counts for deviations; -1: all
   std::uint64_t seed = 1;
 };
 

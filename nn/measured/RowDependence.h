@@ -11,7 +11,7 @@
 
 namespace palp {
 
-/// How the rows of a measured table depend on each other, which decides what is left out together.
+/// How the rows of a measured table depend on each other, which decides the rows that are left out together.
 enum class RowOrder {
   Independent, ///< each row alone, or with rows that are nearly equal
   Time,        ///< neighbours are alike: stretches, with a margin on both sides
@@ -47,7 +47,7 @@ RowDependence findDependence(const MeasuredRows& rows, const std::optional<RowOr
 /// Rows that are nearly equal in readings and targets, whatever their order: number of each row's cluster.
 Eigen::VectorXi nearlyEqualRows(const Eigen::MatrixXd& readings, const Eigen::MatrixXd& targets);
 
-/// What is left out together by the order: five folds of runs, five stretches with margins, or ten folds of clusters.
+/// Folds by the order: five folds of runs, five stretches with margins, or ten folds of clusters.
 std::vector<Fold> foldsFor(const MeasuredRows& rows, RowOrder order);
 /// Each run in turn.
 std::vector<Fold> foldsOfRuns(const MeasuredRows& rows);

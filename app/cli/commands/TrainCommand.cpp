@@ -3,9 +3,9 @@
 #include "app/cli/commands/TrainArguments.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/KnownTouches.h"
-#include "app/study/decoding/MeasuredWords.h"
 #include "app/study/decoding/NoiseBound.h"
 #include "app/study/decoding/Prediction.h"
+#include "app/study/decoding/measured/MeasuredWords.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
 

@@ -2,9 +2,9 @@
 
 #include "app/study/decoding/ConstantInputs.h"
 #include "app/study/decoding/KnownTouches.h"
-#include "app/study/decoding/MeasuredWords.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
+#include "app/study/decoding/measured/MeasuredWords.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"

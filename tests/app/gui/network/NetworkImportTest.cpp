@@ -41,7 +41,8 @@ protected:
             R"(}, "forces": {"columns": ["Fx", "Fy", "Fz"], "unit": "N"}, "area": {"column": "pad", "count": 8}})",
         true);
     const fs::path samplesFile = folder() / (name + ".h5");
-    importSamples({{folder() / (name + "-table.csv")}, folder() / (name + ".json"), nullptr, samplesFile, true}, {}, {});
+    importSamples({{folder() / (name + "-table.csv")}, folder() / (name + ".json"), nullptr, samplesFile, true}, {},
+                  {});
     return samplesFile;
   }
   /// The samples from these files are those that are there.

@@ -1,4 +1,4 @@
-#include "app/study/decoding/MeasuredWords.h"
+#include "app/study/decoding/measured/MeasuredWords.h"
 
 #include "model/base/GotExpected.h"
 #include "model/base/NumberText.h"
