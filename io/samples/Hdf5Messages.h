@@ -12,9 +12,9 @@ namespace palp {
 enum class Hdf5Question : std::uint32_t {
   Attributes, ///< name, value, name, value ..., each ended by a zero
   Texts,      ///< of a dataset, each ended by a zero
-  Layout, ///< whole numbers of 64 bits: rows of a chunk, shuffled and deflated or not, dimensions, shape, offset and
-          ///< bytes of each chunk
-  Rows,   ///< the numbers, `count` rows from `row` on
+  Layout,  ///< whole numbers of 64 bits: rows of a chunk, shuffled and deflated or not, dimensions, shape, offset and
+           ///< bytes of each chunk
+  Rows,    ///< the numbers, `count` rows from `row` on
   Datasets ///< of numbers, in all groups: path, sizes separated by blanks, each ended by a zero
 };
 
