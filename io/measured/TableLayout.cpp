@@ -45,7 +45,7 @@ LineCount countFields(std::string_view line, const TableLayout& layout) {
 
 /// How well separator and decimal sign of a layout fit the lines.
 struct Fit {
-  double share = 0;        ///< of the fields in rows of the usual width, those that are numbers
+  double score = -1e300;   ///< fields from the first row on that are numbers, minus those that are not
   std::size_t columns = 0; ///< usual width of the rows
   std::size_t first = 0;   ///< index of the first such row
 };
@@ -66,12 +66,9 @@ Fit fitOf(const std::vector<NumberedLine>& lines, const TableLayout& layout) {
     }
   const auto isUsual = [&fit](const LineCount& count) { return count.isRow() && count.used == fit.columns; };
   fit.first = static_cast<std::size_t>(std::find_if(counts.begin(), counts.end(), isUsual) - counts.begin());
-  std::size_t filled = 0, numeric = 0;
-  for (std::size_t i = fit.first; i < counts.size(); ++i) {
-    filled += counts[i].filled;
-    numeric += counts[i].numeric;
-  }
-  fit.share = filled == 0 ? 0 : static_cast<double>(numeric) / static_cast<double>(filled);
+  fit.score = 0;
+  for (std::size_t i = fit.first; i < counts.size(); ++i)
+    fit.score += 2 * static_cast<double>(counts[i].numeric) - static_cast<double>(counts[i].filled);
   return fit;
 }
 
@@ -129,7 +126,7 @@ void findNames(const std::vector<NumberedLine>& lines, std::size_t first, TableL
   }
 }
 
-/// Separator and decimal sign by which most fields are numbers; of equal ones that with more columns.
+/// Separator and decimal sign by which most fields are numbers; of equal ones the first.
 Fit findDialect(const std::vector<NumberedLine>& lines, const TableForm& form, TableLayout& layout) {
   Fit best;
   TableLayout tried = layout;
@@ -140,8 +137,7 @@ Fit findDialect(const std::vector<NumberedLine>& lines, const TableForm& form, T
       tried.separator = separator;
       tried.decimal = decimal;
       const Fit fit = fitOf(lines, tried);
-      if (fit.columns == 0 || fit.share < best.share - 1e-9) continue;
-      if (fit.share < best.share + 1e-9 && fit.columns <= best.columns) continue;
+      if (fit.columns == 0 || fit.score <= best.score) continue;
       best = fit;
       layout = tried;
     }

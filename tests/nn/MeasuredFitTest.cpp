@@ -49,9 +49,9 @@ MeasuredRows mixed(const MeasuredRows& rows) {
   return {rows.readings(order, Eigen::all), rows.targets(order, Eigen::all), {}, rows.runs};
 }
 
-/// A slow sensor: each reading follows the force by a low pass of 2 s and half at once; 20 rows a second.
+/// A slow sensor: its reading follows the force at once and by a low pass of 2 s; 20 rows per second.
 MeasuredRows slowSensor(Eigen::Index count, unsigned seed) {
-  MeasuredRows rows{Eigen::MatrixXd(count, 2), Eigen::MatrixXd(count, 1), Eigen::VectorXd(count),
+  MeasuredRows rows{Eigen::MatrixXd(count, 1), Eigen::MatrixXd(count, 1), Eigen::VectorXd(count),
                     Eigen::VectorXi::Zero(count)};
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> level(0, 5);
@@ -62,9 +62,9 @@ MeasuredRows slowSensor(Eigen::Index count, unsigned seed) {
     state += (force - state) * (1 - std::exp(-0.05 / 2));
     rows.times_s(i) = 0.05 * static_cast<double>(i);
     rows.targets(i, 0) = force;
-    rows.readings.row(i) << 1 + 0.5 * force + state, 2 + 0.2 * force - 0.5 * state;
+    rows.readings(i, 0) = 1 + 0.5 * force + state;
   }
-  rows.readings += 0.01 * normalMatrix(count, 2, seed + 1);
+  rows.readings += 0.01 * normalMatrix(count, 1, seed + 1);
   return rows;
 }
 
