@@ -17,8 +17,8 @@ namespace palp {
 
 class HeatmapView;
 
-/// The design beside an earlier one, of the history or one that was kept: what both resolve, and how their answers to
-/// the load differ.
+/// The design compared with an earlier one, of the history or the reference: what both resolve, and how their answers
+/// to the load differ.
 class DesignComparison : public QWidget {
   Q_OBJECT
 

@@ -22,7 +22,7 @@ class DesignSweep;
 class LayoutFinder;
 class NoiseFloor;
 
-/// The sensor at rest with all its parameters; the mesh only when asked for.
+/// The sensor at rest with all its parameters; the mesh only on request.
 class DesignPage : public Scene {
   Q_OBJECT
 

@@ -169,7 +169,7 @@ void KeptTouch::resume() {
   if (!wanted_ || path_ || runner_.running()) return;
   wanted_.reset();
   problem_.clear();
-  emit changed(); // the scene that shows it wants it again
+  emit changed(); // the scene that shows it requests it again
 }
 
 void KeptTouch::run() {

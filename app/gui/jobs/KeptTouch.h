@@ -33,8 +33,9 @@ struct KeptPath {
 /// as they are. Throws Error where it follows a path: areas do not move.
 LoadCase uniformLoad(const Touch& touch);
 
-/// Solves the kept design under the touch's load, at the same shares of the block, and reads its fields at the nodes of
-/// the touch's mesh. Throws Cancelled where it is stopped, Error where the kept design cannot bear the load.
+/// Solves the reference design under the touch's load, at the same shares of the block, and reads its fields at the
+/// nodes of the touch's mesh. Throws Cancelled where it is stopped, Error where the reference design cannot bear the
+/// load.
 KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform = false);
 
 /// The same in the background, and only while a scene shows it.
@@ -44,12 +45,12 @@ class KeptTouch : public QObject {
 public:
   explicit KeptTouch(QObject* parent = nullptr);
 
-  /// A scene shows this design beside this touch: computed unless that was done, or runs.
+  /// A scene compares this design with this touch: computed unless that was done, or runs.
   void want(const SensorDesign& kept, const Touch& shown, bool uniform);
   /// Null before it is there, and where another one was wanted last.
   [[nodiscard]] std::shared_ptr<const KeptPath> pathFor(const SensorDesign& kept, const Touch& shown,
                                                         bool uniform) const;
-  /// Why there is none, in words; empty while it is computed.
+  /// Why there is none, as text; empty while it is computed.
   [[nodiscard]] const QString& problem() const { return problem_; }
   /// Computes it again after a cancel.
   void resume();

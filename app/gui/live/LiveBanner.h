@@ -21,7 +21,7 @@ public:
 
 signals:
   void tareAsked();
-  /// A network of these row-wires, the whole ones, is wanted: "0,1,2,4".
+  /// A network of these row-wires, the intact ones, is needed: "0,1,2,4".
   void networkOfRowsAsked(const QString& rows);
 
 private:

@@ -3,8 +3,8 @@
 #include "app/gui/live/panels/CalibrationWords.h"
 #include "app/gui/live/panels/KnownLoad.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
-#include "app/gui/widgets/PushButton.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
@@ -45,9 +45,7 @@ Eigen::Vector3d forceOn(const DecodedForces& forces, int area) {
 LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(parent), host_(host) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 4, 4, 4);
-  row->addWidget(buildLabel());
-  row->addWidget(buildFrames(), 2);
-  row->addWidget(buildFit(), 3);
+  addTo(*row, {buildLabel(), {buildFrames(), 2}, {buildFit(), 3}});
   for (const JobRunner* runner : {&runner_, &writer_})
     connect(runner, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
@@ -66,29 +64,18 @@ QWidget* LiveCalibration::buildLabel() {
   known_ = new KnownLoad;
   known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
   column->addWidget(known_);
-  count_ = new WholeBox;
-  count_->setObjectName("labelFrames");
-  count_->setRange(1, 100000);
+  count_ = wholeBox("labelFrames", {.low = 1, .high = 100000, .unit = tr(" frames"), .whileTyping = true},
+                    tr("Number of frames that are averaged to one labelled frame"));
   count_->setValue(50);
   count_->setPrefix(tr("Mean of "));
-  count_->setSuffix(tr(" frames"));
-  count_->setToolTip(tr("Number of frames that are averaged to one labelled frame"));
   collect_ = pushButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(count_, 1);
-  row->addWidget(collect_);
-  column->addLayout(row);
-  problem_ = new QLabel;
-  problem_->setObjectName("calibrationProblem");
-  problem_->setWordWrap(true);
-  problem_->setProperty("role", "problem");
+  column->addLayout(inRow({{count_, 1}, collect_}));
+  problem_ = textLabel("calibrationProblem", "problem");
   problem_->hide();
   progress_ = new QProgressBar;
   progress_->setMaximumHeight(10);
   progress_->setTextVisible(false);
-  column->addWidget(progress_);
-  column->addWidget(problem_);
-  column->addStretch(1);
+  addTo(*column, {progress_, problem_, Part::stretch()});
   connect(collect_, &QPushButton::clicked, this, &LiveCalibration::collect);
   return box;
 }
@@ -201,7 +188,7 @@ void LiveCalibration::complain(const QString& sentence) {
   if (!sentence.isEmpty()) emit message(sentence);
 }
 
-/// A bad fit is asked about.
+/// Asks before a bad fit is used.
 bool LiveCalibration::mayUse() {
   QStringList words;
   for (const std::string& warning : warningsOf(calibration_->report)) words << QString::fromStdString(warning);

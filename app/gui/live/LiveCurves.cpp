@@ -47,7 +47,7 @@ void LiveCurves::draw() {
   changes_->setChart(timed(changeCurves(host_.history(), host_.settings(), cells_)));
 }
 
-/// Curves that one looks at hold all that is there.
+/// Curves that are shown contain all existing values.
 void LiveCurves::hold() {
   LiveSettings all = host_.settings();
   all.window_s = LiveHistory::kLongest_s;

@@ -14,7 +14,7 @@ namespace palp {
 
 namespace {
 
-/// Whatever goes wrong while a source is opened is said in the session's state.
+/// Failures while a source is opened are reported in the session's state.
 template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
   try {
     return open();
@@ -165,7 +165,7 @@ LiveOptions LiveHost::options() {
   };
   switch (settings_.source) {
   case LiveSourceKind::Automatic:
-    // Once a board was there, its absence is said and nothing else takes its place.
+    // After a board was connected, its absence is reported and nothing else replaces it.
     options.open = [simulated, access = access_, seen = boardSeen_]() -> std::unique_ptr<ReportSource> {
       return orRefuse([&]() -> std::unique_ptr<ReportSource> {
         const std::vector<HidBoard> boards = access.list();
@@ -183,7 +183,7 @@ LiveOptions LiveHost::options() {
   case LiveSourceKind::Simulated:
     options.open = simulated;
     break;
-  case LiveSourceKind::Recording: // its tare stands in it
+  case LiveSourceKind::Recording: // it contains its tare
     options.tareOf = {};
     replay_ = std::make_shared<ReplayControl>();
     replay_->speed = settings_.replaySpeed;
@@ -278,7 +278,7 @@ void LiveHost::loadNetwork() {
     before_ = {};
     return setNetwork({own()->decoder, {}, {}, tr("Network of the simulated design"), true});
   }
-  // One that cannot read the board that is there does not take the place of one that can.
+  // A network that cannot read the connected board does not replace one that can.
   const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;
   loader_.start(tr("Reading the network"), [this, file = settings_.network, info](const std::stop_token&,
                                                                                   JobProgress&) {

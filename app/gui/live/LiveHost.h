@@ -22,7 +22,7 @@ namespace palp {
 [[nodiscard]] bool sameSource(const LiveSettings& a, const LiveSettings& b);
 
 /// The live session of one board in the Live scene: opened by the settings, drained when the scene looks. While the
-/// scene is hidden a recording goes on and an alarm that is set goes off; else nothing is read.
+/// scene is hidden a recording continues and an alarm that is set works; else nothing is read.
 class LiveHost : public QObject {
   Q_OBJECT
 
@@ -92,18 +92,18 @@ public:
   [[nodiscard]] bool sendingSettled() const { return sending_.settled(); }
   /// Of each receiver of the settings.
   [[nodiscard]] std::vector<SendingState> sending() { return sending_.states(settings_.receivers); }
-  /// How long the recording has gone on, or the last one went on: without the time in which the board was out.
+  /// Duration of the recording or of the last one [s], without the time in which the board was unplugged.
   [[nodiscard]] double recorded_s() const;
   /// The file of the last recording that was begun.
   [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
-  /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
+  /// Uses a refined network instead of the one in use, which can be restored. Recordings get a mark.
   void useDecoder(Decoder decoder, const QString& name);
   /// The network of the settings again, in place of one that was refined since.
   void useChosenNetwork();
   /// The network that was in use before; its name is empty where there is none to go back to.
   void backToNetwork();
   [[nodiscard]] const QString& networkBefore() const { return before_.name; }
-  /// The network in use, in words: its file, or what was made of it.
+  /// The network in use, as text: its file, or how it was made.
   [[nodiscard]] QString networkName() const;
   /// Of the network in use; empty: the one that ships with Palp.
   [[nodiscard]] const std::string& networkFile() const { return network_.file; }
@@ -111,7 +111,7 @@ public:
   [[nodiscard]] const std::shared_ptr<const CalibratedNetwork>& calibrated() const { return network_.calibrated; }
   /// Another project is open: there is no network of it to go back to.
   void forgetNetworkBefore();
-  /// Goes on from this time of the recording [s].
+  /// Continues from this time of the recording [s].
   void seek(double to_s);
 
   /// Sources that were opened so far: another number is another source.
@@ -121,7 +121,7 @@ signals:
   void decoderChanged();
   /// Another network is in use than the settings name: networkFile(), calibrated().
   void otherNetworkInUse();
-  /// The file that was chosen is no network for this board; the one in use stays.
+  /// The selected file is not a network for this board; the one in use stays.
   void networkRefused(const QString& sentence);
 
 private:
@@ -129,7 +129,7 @@ private:
     std::optional<Decoder> decoder;
     std::string file;
     std::string fingerprint;                               ///< of the file; empty: it is in none
-    QString name;                                          ///< empty: its file says it
+    QString name;                                          ///< empty: that of its file
     bool ofSimulation = false;                             ///< trained on the samples of the simulated board
     std::shared_ptr<const CalibratedNetwork> calibrated{}; ///< null: it is as it was chosen
   };
@@ -159,7 +159,7 @@ private:
   LiveSettings settings_;
   SensorDesign design_, sensor_;
   std::shared_ptr<const SampleSet> running_; ///< that the simulated board was opened with; null: those of Palp
-  Network network_, before_;                 ///< in use, and the one that can be had back
+  Network network_, before_;                 ///< in use, and the one that can be restored
   bool networkAsked_ = false;
   bool anotherProject_ = false; ///< the network that is being read is the first one of a project
   bool designWaits_ = false;    ///< the simulated board follows the design when its recording has ended
@@ -168,7 +168,7 @@ private:
   std::filesystem::path recordingFile_;
   double recordedBefore_s_ = 0;          ///< that the recording holds, up to the last time that the board went out
   std::optional<double> recordsSince_s_; ///< by hostClock_s; none: nothing comes, or none is running
-  bool recordingEnds_ = false;           ///< was asked for
+  bool recordingEnds_ = false;           ///< was requested
   SimulatedDesign simulatedDesign_;
   std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;

@@ -43,7 +43,7 @@ void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
   recordingEnds_ = false;
 }
 
-/// The clock of a recording stands while nothing comes that could be recorded.
+/// The clock of a recording stops while nothing arrives that could be recorded.
 void LiveHost::timeRecording() {
   const bool goesOn = status_.recording && !recordingEnds_;
   if (goesOn == recordsSince_s_.has_value()) return;

@@ -9,8 +9,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kLasting_s = 0.7;    // that a wire is broken before it is said: a fault that comes and goes is none
-constexpr double kDriftAgain_s = 300; // between two sentences on one drift
+constexpr double kLasting_s = 0.7;    // a wire must be broken before it is reported: a passing fault is ignored
+constexpr double kDriftAgain_s = 300; // between two reports of one drift
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();

@@ -14,6 +14,7 @@
 #include "app/gui/live/send/SendPanel.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QAbstractButton>
@@ -34,7 +35,7 @@ namespace palp {
 namespace {
 
 constexpr int kPanelWidth_px = 340;
-constexpr int kFrame_ms = 34; // 30 frames a second at most
+constexpr int kFrame_ms = 34; // at most 30 frames per second
 constexpr int kHiddenLook_ms = 250;
 constexpr int kHiddenLooks = 4;           // until it is known that nothing is recorded or watched
 constexpr double kForceDigit_N = 0.01;    // that the panel shows
@@ -60,7 +61,7 @@ LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
   row->addWidget(buildPanels());
   views_ = buildViews();
   row->addWidget(views_, 1);
-  row->addStretch(0); // beside a panel that stands alone
+  row->addStretch(0); // next to a panel without views
   timer_.setInterval(kFrame_ms);
   connect(&timer_, &QTimer::timeout, this, &LivePage::look);
   hiddenTimer_.setInterval(kHiddenLook_ms);
@@ -88,9 +89,7 @@ QWidget* LivePage::buildPanels() {
   simulation_ = new SimulationPanel;
   control_ = new LiveControlPanel;
   if (board_ > 0) control_->displayRecording(QDir::home().filePath(QString("touch-board%1.palprec").arg(board_)), {});
-  column->addWidget(control_->recording());
-  column->addWidget(source_);
-  column->addWidget(simulation_);
+  addTo(*column, {control_->recording(), source_, simulation_});
   send_ = new SendPanel;
   column->addWidget(send_);
   column->addWidget(control_, 1);
@@ -223,7 +222,7 @@ void LivePage::connectPanels() {
     Project next = workbench_.project();
     next.design = host_.sensor();
     next.load = load;
-    workbench_.edit(tr("load of the live force"), next);
+    workbench_.edit(tr("Use the live force as the load"), next);
     emit message(tr("The decoded force is now the load of the Deformation scene."));
   });
 }
@@ -297,15 +296,13 @@ void LivePage::takeNetworkInUse() {
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {
-  Project next = workbench_.project();
-  next.board(board_) = settings;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.board(board_) = settings; });
 }
 
 void LivePage::displayProject() {
   if (board_ >= workbench_.project().boards()) return; // it is about to go
   const LiveSettings settings = this->settings();
-  if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and says so
+  if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and reports it
   host_.setSettings(settings, workbench_.project().design);
   calibration_->display(settings.frames);
   source_->display(settings);
@@ -356,7 +353,7 @@ void LivePage::resizeEvent(QResizeEvent* event) {
   arrangeViews();
 }
 
-/// The views have another size, after a fold of the panel too: they are arranged when the layout has settled.
+/// The views have another size, after a fold of the panel too: they are arranged when the layout is complete.
 bool LivePage::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize) QMetaObject::invokeMethod(this, &LivePage::arrangeViews, Qt::QueuedConnection);
   return Scene::eventFilter(watched, event);
@@ -371,7 +368,7 @@ void LivePage::setBeside(bool beside) {
   arrangeViews();
 }
 
-/// A recording or an alarm goes on out of sight; where there is neither, nothing runs.
+/// A recording or an alarm continues while hidden; without either, nothing runs.
 void LivePage::lookHidden() {
   host_.look();
   announce();
@@ -383,7 +380,7 @@ void LivePage::announce() {
   for (const QString& sentence : news_.take(host_)) emit message(sentence);
   const QString alarm = watch_.take(host_, isVisible());
   if (alarm.isEmpty()) return;
-  stateLook_ = 0; // it is seen at once
+  stateLook_ = 0; // shown immediately
   emit message(alarm);
 }
 

@@ -30,9 +30,9 @@ class SidePanel;
 class SendPanel;
 class SimulationPanel;
 
-/// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
-/// While it is hidden a recording and an alarm that is set go on. Meshes and solves nothing but the twin, when it is
-/// asked for.
+/// A live board: force vectors, heatmap and curves at no more than 30 frames per second, and only while it is seen.
+/// While it is hidden a recording and an alarm that is set continue. Meshes and solves only the model view, on
+/// request.
 class LivePage : public Scene {
   Q_OBJECT
 
@@ -55,11 +55,11 @@ public:
   [[nodiscard]] int looks() const { return looks_; }
   /// Which of the project's boards it shows, from the next change of the project on.
   void setBoard(std::size_t board) { board_ = board; }
-  /// What is told of it in every scene.
+  /// Its status for all scenes.
   [[nodiscard]] LiveLampState lamp() const { return watch_.state(host_, isVisible()); }
-  /// Another board of the project is asked for beside this one.
+  /// Another board of the project is requested in addition to this one.
   void setMoreAllowed(bool allowed);
-  /// It shares the window with others: where it is too narrow for views beside its panel, the panel takes their place.
+  /// It shares the window with others: where it is too narrow for views next to its panel, the panel replaces them.
   void setBeside(bool beside);
 
 signals:
@@ -124,7 +124,7 @@ private:
   LiveBanner* banner_ = nullptr;
   ReplayBar* replay_ = nullptr;
   SidePanel* panels_ = nullptr;
-  QWidget* views_ = nullptr; ///< all that stands beside the panels
+  QWidget* views_ = nullptr; ///< all views next to the panels
   QSplitter* upper_ = nullptr;
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;

@@ -1,4 +1,4 @@
-// What the Live page does at a press of a button: tare, record, export, solve the twin.
+// What the buttons of the Live page do: tare, record, export, solve the model view.
 
 #include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/LiveDrawings.h"

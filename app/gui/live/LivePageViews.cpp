@@ -26,7 +26,7 @@ namespace palp {
 namespace {
 
 constexpr double kColorSteps = 256;  // a smaller change of a cell is not seen
-constexpr int kNarrowViews_px = 640; // narrower views stand one above the other
+constexpr int kNarrowViews_px = 640; // narrower views are placed one above the other
 constexpr int kTower_px = 640;       // that four of them need to be read
 constexpr int kLowTower_px = 400;    // that three of them need
 
@@ -37,7 +37,7 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
   return ((now - drawn).array().abs() > step).any();
 }
 
-/// A recording of a simulated board says so in its reports; of which design a board is only the project says.
+/// A recording of a simulated board is marked so in its reports; the design of a board is known from the project only.
 DeviationNote noteOf(const LiveHost& host, const SensorDesign& project) {
   const LiveFrame* last = host.history().last();
   if (!host.decoder() || last == nullptr) return {};

@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/views/BlockView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "model/base/Error.h"
 #include "solver/ConductionField.h"
 #include "solver/MeshCost.h"
@@ -72,19 +73,13 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 8, 8, 2);
-  auto* solve = new QPushButton(tr("Solve for this force"));
-  solve->setObjectName("solveTwin");
-  solve->setToolTip(tr("Meshes and solves the block under the latest decoded force (W)"));
-  use_ = new QPushButton(tr("Use in Deformation"));
-  use_->setObjectName("takeLoad");
-  use_->setToolTip(tr("Makes this force the load of the Deformation scene; this can be undone"));
+  auto* solve = pushButton(tr("Solve for this force"), "solveTwin",
+                           tr("Meshes and solves the block under the latest decoded force (W)"));
+  use_ = pushButton(tr("Use in Deformation"), "takeLoad",
+                    tr("Makes this force the load of the Deformation scene; this can be undone"));
   use_->setEnabled(false);
-  words_ = new QLabel;
-  words_->setObjectName("twinWords");
-  words_->setWordWrap(true);
-  row->addWidget(solve);
-  row->addWidget(use_);
-  row->addStretch(1);
+  words_ = textLabel("twinWords");
+  addTo(*row, {solve, use_, Part::stretch()});
   words_->setContentsMargins(8, 0, 8, 0);
   column->addLayout(row);
   column->addWidget(words_);

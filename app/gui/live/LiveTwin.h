@@ -15,8 +15,8 @@ namespace palp {
 
 class BlockView;
 
-/// The twin: what the finite element model says of the force that was decoded just now. Meshed and solved only when
-/// asked for.
+/// The model view: the finite element model under the force that was decoded just now. Meshed and solved only on
+/// request.
 class LiveTwin : public QWidget {
   Q_OBJECT
 

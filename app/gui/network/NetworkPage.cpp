@@ -13,6 +13,7 @@
 #include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
@@ -45,7 +46,7 @@ QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orien
   return splitter;
 }
 
-/// A sweep is no part of what a network was trained with.
+/// A sweep is not part of what a network was trained with.
 NetworkSettings withSweepOf(const NetworkSettings& now, NetworkSettings network) {
   network.sweepFrom = now.sweepFrom;
   network.sweepTo = now.sweepTo;
@@ -78,9 +79,7 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   });
   connect(&workbench_, &Workbench::projectChanged, this, &NetworkPage::displayProject);
   connect(area_, &QSpinBox::valueChanged, this, [this](int area) {
-    Project next = workbench_.project();
-    next.view.testArea = area;
-    workbench_.edit(tr("Choose a test area"), next);
+    workbench_.edit(tr("Choose a test area"), [&](Project& next) { next.view.testArea = area; });
   });
   connect(panel_, &NetworkPanel::openSamplesAsked, files_, [this] { files_->openSamples(); });
   connect(panel_, &NetworkPanel::saveSamplesAsked, files_, &NetworkFiles::saveSamples);
@@ -157,7 +156,7 @@ void NetworkPage::showSentence(const QString& sentence, const char* role) {
   problem_->setVisible(!sentence.isEmpty());
 }
 
-/// The panel says how the samples that were opened were made, as far as their file does.
+/// The panel shows how the opened samples were made, as far as their file contains it.
 void NetworkPage::takeSampleSettings() {
   const NetworkSamples* samples = session_.samples();
   if (samples == nullptr || samples->training.origin.imported()) return;
@@ -174,7 +173,7 @@ void NetworkPage::takeSampleSettings() {
   workbench_.edit(tr("Open samples"), next);
 }
 
-/// Asked for by itself: what is trained stays in the list.
+/// Requested alone: what is trained stays in the list.
 void NetworkPage::takeOver(const QString& what, const NetworkSettings& network) {
   Project next = workbench_.project();
   next.network = withSweepOf(next.network, network);
@@ -198,23 +197,16 @@ QLayout* NetworkPage::buildBar() {
   auto* bar = new QHBoxLayout;
   auto* words = new QLabel(tr("Test area"));
   bar->addWidget(words);
-  area_ = new WholeBox;
-  area_->setObjectName("testArea");
-  area_->setToolTip(tr("Area whose test samples are plotted"));
+  area_ = wholeBox("testArea", {.whileTyping = true}, tr("Area whose test samples are plotted"));
   words->setBuddy(area_);
   bar->addWidget(area_);
   bar->addStretch(1);
-  save_ = new QPushButton(tr("Save network..."));
-  save_->setObjectName("saveNetwork");
-  save_->setToolTip(tr("Saves the network shown, for Live and for palp predict"));
-  open_ = new QPushButton(tr("Open network..."));
-  open_->setObjectName("openNetwork");
-  open_->setToolTip(tr("Opens a network from a file and evaluates it on the test samples"));
-  live_ = new QPushButton(tr("Use in Live..."));
-  live_->setObjectName("useInLive");
-  bar->addWidget(live_);
-  bar->addWidget(save_);
-  bar->addWidget(open_);
+  save_ =
+      pushButton(tr("Save network..."), "saveNetwork", tr("Saves the network shown, for Live and for palp predict"));
+  open_ = pushButton(tr("Open network..."), "openNetwork",
+                     tr("Opens a network from a file and evaluates it on the test samples"));
+  live_ = pushButton(tr("Use in Live..."), "useInLive");
+  addTo(*bar, {live_, save_, open_});
   return bar;
 }
 
@@ -233,10 +225,7 @@ QWidget* NetworkPage::buildCharts() {
   auto* rest = new QWidget;
   auto* column = new QVBoxLayout(rest);
   column->setContentsMargins(0, 0, 0, 0);
-  problem_ = new QLabel;
-  problem_->setObjectName("trainingProblem");
-  problem_->setProperty("role", "problem");
-  problem_->setWordWrap(true);
+  problem_ = textLabel("trainingProblem", "problem");
   keepRoom(*problem_);
   problem_->hide();
   column->addWidget(problem_);
@@ -321,7 +310,7 @@ void NetworkPage::displaySamples() {
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it can be continued.").arg(made).arg(all);
   panel_->displaySamples(session_.upToDate(), words, all > 0);
   displayReadiness();
-  displayFit(); // it says whose it is and what comes next
+  displayFit(); // its text depends on the samples and on what runs next
 }
 
 void NetworkPage::displayReadiness() {

@@ -26,7 +26,7 @@ class SweepTab;
 class TouchBounds;
 class TrainedNetworks;
 
-/// Samples, training and the sweep of the spread, with the paper's numbers beside.
+/// Samples, training and the sweep of the spread, with the paper's numbers.
 class NetworkPage : public Scene {
   Q_OBJECT
 

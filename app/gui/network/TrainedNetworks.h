@@ -16,7 +16,7 @@ namespace palp {
 
 class DataTable;
 
-/// The networks of this design that were trained or opened, with their errors: the way back to each, and their names.
+/// The networks of this design that were trained or opened, with their errors and names; restores each of them.
 class TrainedNetworks : public QWidget {
   Q_OBJECT
 

@@ -25,7 +25,7 @@ struct ViewSettings {
   std::optional<CutPlane> cut;
   std::optional<ColorMap> colorMap;                     ///< none: as the quantity asks for
   std::optional<std::array<double, 2>> colorRange;      ///< of the quantity's colours; none: the values' own
-  std::optional<std::array<double, 2>> differenceRange; ///< the same of the difference to the kept design
+  std::optional<std::array<double, 2>> differenceRange; ///< the same of the difference from the reference design
   bool extremes = false;                                ///< marks the largest and the smallest value
   bool ghost = true;
   bool electrodes = true;
@@ -57,7 +57,7 @@ struct ViewSettings {
   }
   /// The ends of the line; through the middle of this block's top face along x until one was chosen.
   [[nodiscard]] std::array<std::array<double, 3>, 2> lineIn(const Eigen::Vector3d& block_mm) const;
-  /// Quantity, warp, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
+  /// Quantity, deformation scale, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
   [[nodiscard]] DeformationOptions blockOptions() const;
 };
 

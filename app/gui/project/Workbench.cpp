@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMergeId = 1;
 
-/// The same project, shown in another way, beside another board, another design that is kept and other studies.
+/// The same project with the view, the boards, the reference design and the studies of `other`.
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
@@ -76,13 +76,19 @@ Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent),
 void Workbench::edit(const QString& what, const Project& next) {
   if (next == project()) return;
   if (!acceptsLosses(lossQuestion_.losses({Leaving::Way::Edit, &next}))) return showAgain();
-  if (next == shownAs(project(), next)) { // nothing that stands in the history
+  if (next == shownAs(project(), next)) { // nothing that the history records
     apply(next);
     return;
   }
-  project_ = shownAs(project(), next); // what is shown changes at once and for good
+  project_ = shownAs(project(), next); // what is shown is not part of the history
   history_.push(new ProjectEdit(*this, what, next));
   entryOpen_ = true;
+}
+
+void Workbench::edit(const QString& what, const std::function<void(Project&)>& change) {
+  Project next = project();
+  change(next);
+  edit(what, next);
 }
 
 void Workbench::replace(const Project& project, const QString& file) {

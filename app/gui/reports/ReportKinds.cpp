@@ -13,7 +13,7 @@ namespace palp {
 namespace {
 
 constexpr qsizetype kNameOfDesign = 8; // characters of its fingerprint
-constexpr double kSamples = 100;       // on each area, for which the times of RunPart stand
+constexpr double kSamples = 100;       // on each area, for which the times of RunPart hold
 
 std::vector<ReportKind> allKinds() {
   std::vector<ReportKind> all{

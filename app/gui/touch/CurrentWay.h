@@ -7,7 +7,7 @@
 
 namespace palp {
 
-/// The current's way in a touch while one row-wire and one column-wire are read, in the background and only while a
+/// The current paths in a touch while one row-wire and one column-wire are read, in the background and only while a
 /// scene shows it.
 class CurrentWay : public QObject {
   Q_OBJECT

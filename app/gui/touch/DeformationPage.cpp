@@ -11,6 +11,7 @@
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QButtonGroup>
@@ -112,10 +113,7 @@ QWidget* DeformationPage::buildPanels() {
   load_ = new LoadPanel;
   view_ = new ViewPanel;
   result_ = new ResultPanel;
-  column->addWidget(group(tr("Load"), load_));
-  column->addWidget(group(tr("View"), view_));
-  column->addWidget(group(tr("Result"), result_));
-  column->addStretch(1);
+  addTo(*column, {group(tr("Load"), load_), group(tr("View"), view_), group(tr("Result"), result_), Part::stretch()});
   return sidePanel(panels, kPanelWidth_px);
 }
 
@@ -255,7 +253,7 @@ DeformationOptions DeformationPage::blockOptions() const {
   options.cutGrip = true;
   options.lessKept = lessKept();
   const auto kept = shownLess();
-  // One scale and one warp on the whole load path.
+  // One colour scale and one deformation scale on the complete load path.
   if (const NodalFields* end = workbench_.touch().endFields(); end != nullptr) {
     if (!options.fixedRange && !options.lessKept)
       options.fixedRange = quantityRange(options, quantityValues(options.quantity, *end));
@@ -372,9 +370,7 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
 }
 
 void DeformationPage::editView(const QString& what, const ViewSettings& view) {
-  Project next = workbench_.project();
-  next.view = view;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.view = view; });
 }
 
 void DeformationPage::probe(int node) {

@@ -52,7 +52,7 @@ private:
   void probe(int node);
   void clicked(int node);
   void chooseTool(Click click);
-  /// A press on the top face, as the tool says: chooses a load, makes one, or takes a disc away.
+  /// A press on the top face, by the selected tool: selects a load, adds one, or removes a disc.
   void press(const Eigen::Vector3d& rest_mm);
   void addLineEnd(int node);
   void setForce(int load, const Eigen::Vector3d& drawn_N);

@@ -11,8 +11,8 @@ namespace palp {
 class BlockView;
 class TouchSession;
 
-/// The way from rest to the full load as an animated GIF or a series of pictures, with one warp factor and one colour
-/// scale throughout. Fields between two computed equilibria are interpolated; they and the files are made in the
+/// The path from rest to the full load as an animated GIF or a series of pictures, with one deformation scale and one
+/// colour scale throughout. Fields between two computed equilibria are interpolated; they and the files are made in the
 /// background, the pictures drawn in the window's thread, one an event. What is stopped or cannot be written leaves no
 /// part of a film.
 class LoadPathAnimation : public QObject {

@@ -10,6 +10,7 @@
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -38,17 +39,11 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   pairs_ = new HeatmapView;
   pairs_->setObjectName("pairsHeatmap");
   pairs_->hide();
-  laws_ = new QLabel;
-  laws_->setObjectName("lawsCompared");
-  laws_->setWordWrap(true);
+  laws_ = textLabel("lawsCompared");
   laws_->hide();
   law_ = new LawBar;
   law_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
-  auto* laws = new QHBoxLayout;
-  laws->addWidget(law_);
-  laws->addWidget(laws_, 1);
-  laws->addStretch();
-  column->addLayout(laws);
+  column->addLayout(inRow({law_, {laws_, 1}, Part::stretch()}));
   row_ = new ChartView;
   row_->setObjectName("rowCurve");
   column_ = new ChartView;
@@ -62,15 +57,10 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   auto* third = new QWidget;
   auto* around = new QVBoxLayout(third);
   around->setContentsMargins(0, 0, 0, 0);
-  currentWay_ = new QCheckBox(tr("Current paths"));
-  currentWay_->setObjectName("currentWay");
-  paths_ = new QLabel;
-  paths_->setObjectName("currentPaths");
-  paths_->setWordWrap(true);
+  currentWay_ = checkBox(tr("Current paths"), "currentWay");
+  paths_ = textLabel("currentPaths");
   paths_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  around->addWidget(new FoldingRow(currentWay_, new ViewBar(*block_)));
-  around->addWidget(paths_);
-  around->addWidget(block_, 1);
+  addTo(*around, {new FoldingRow(currentWay_, new ViewBar(*block_)), paths_, {block_, 1}});
   lower->addWidget(third);
   lower->setSizes({420, 420, 520});
   auto* views = new QSplitter(Qt::Vertical);
@@ -114,9 +104,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
     edit(tr("Show the current paths"), view);
   });
   connect(law_, &LawBar::edited, this, [this](const QString& what, const SensorDesign& design) {
-    Project next = workbench_.project();
-    next.design = design;
-    workbench_.edit(what, next);
+    workbench_.edit(what, [&](Project& next) { next.design = design; });
   });
   connect(law_, &LawBar::refused, reading_, &QLabel::setText);
   for (FieldTouch* field : {&workbench_.field(), &workbench_.keptField()})
@@ -132,9 +120,7 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
 }
 
 void ResistancePage::edit(const QString& what, const ViewSettings& view) {
-  Project next = workbench_.project();
-  next.view = view;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.view = view; });
 }
 
 void ResistancePage::displayProject() {
@@ -189,22 +175,16 @@ QWidget* ResistancePage::buildBar() {
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(0, 0, 0, 0);
-  kind_ = new QComboBox;
-  kind_->setObjectName("resistanceKind");
-  kind_->addItems(
-      {tr("R [ohm]"), tr("Change dR [ohm]"), tr("Relative change dR/R [%]"), tr("dR/R minus reference design [%]")});
-  kind_->setToolTip(
+  kind_ = choiceBox(
+      "resistanceKind",
+      {tr("R [ohm]"), tr("Change dR [ohm]"), tr("Relative change dR/R [%]"), tr("dR/R minus reference design [%]")},
       tr("Resistance between a row-wire and a column-wire by the law of the design; changes are relative to rest"));
-  fixed_ = new QCheckBox(tr("Fix colour scale"));
-  fixed_->setObjectName("fixedScale");
-  fixed_->setToolTip(tr("Keeps the range of the colours when the load changes"));
+  fixed_ = checkBox(tr("Fix colour scale"), "fixedScale", tr("Keeps the range of the colours when the load changes"));
   reading_ = new QLabel;
   reading_->setToolTip(
       tr("Resistance of the cell under the pointer, otherwise of the selected cell; click on a cell to select it"));
   reading_->setObjectName("reading");
-  row->addWidget(new QLabel(tr("Show")));
-  row->addWidget(kind_);
-  row->addWidget(fixed_);
+  addTo(*row, {new QLabel(tr("Show")), kind_, fixed_});
   row->addSpacing(20);
   row->addWidget(reading_, 1);
   return bar;
@@ -299,7 +279,7 @@ HeatmapSpec ResistancePage::heatmap() const {
   HeatmapSpec shown = resistanceHeatmap(*resistances_, kind());
   if (kind() != ResistanceKind::LessKept) {
     if (const auto end = workbench_.resistancesAtEnd(); end && shown.values.size() > 0)
-      shown.colors = resistanceHeatmap(*end, kind()).colors; // one scale on the whole load path
+      shown.colors = resistanceHeatmap(*end, kind()).colors; // one scale on the complete load path
     return shown;
   }
   HeatmapSpec none;

@@ -18,7 +18,7 @@ class HeatmapView;
 class LawBar;
 
 /// Row-column resistances under the load by the law of the design: a heatmap, under the field with that of Eq. (1)
-/// beside it, the row and the column of a cell as curves, its electrodes lit.
+/// next to it, the row and the column of a cell as curves, its electrodes highlighted.
 class ResistancePage : public Scene {
   Q_OBJECT
 
@@ -50,9 +50,9 @@ private:
   /// As chosen, where that can be shown.
   [[nodiscard]] ResistanceKind kind() const;
   [[nodiscard]] HeatmapSpec heatmap() const;
-  /// The block shows the current's way.
+  /// The block shows the current paths.
   [[nodiscard]] bool wayShown() const;
-  /// Why there is nothing of the kept design; empty where there is, or while it is computed.
+  /// Why there is no result of the reference design; empty where there is, or while it is computed.
   [[nodiscard]] QString keptProblem() const;
   /// Of the touch that is shown, by its law; asks for the field where it is not there yet.
   void findResistances();
@@ -75,7 +75,7 @@ private:
   QLabel* laws_ = nullptr;
   QLabel* paths_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
-  HeatmapView* pairs_ = nullptr; ///< by Eq. (1), beside the field
+  HeatmapView* pairs_ = nullptr; ///< by Eq. (1), next to those by the field
   ChartView* row_ = nullptr;
   ChartView* column_ = nullptr;
   BlockView* block_ = nullptr;

@@ -4,6 +4,7 @@
 #include "app/gui/jobs/MatchedLoad.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 
 #include <QLabel>
@@ -58,15 +59,13 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   lines->setContentsMargins(0, 0, 0, 0);
   result_ = markupLabel(tr("Not computed yet."));
   result_->setObjectName("result");
-  estimate_ = new QPushButton(tr("Estimate the discretisation error"));
-  estimate_->setObjectName("estimate");
-  estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the displacements of the electrodes"));
-  uniform_ = new QPushButton(tr("Compare with uniform load"));
-  uniform_->setObjectName("compareUniform");
-  uniform_->setCheckable(true);
-  uniform_->setToolTip(
+  estimate_ = pushButton(tr("Estimate the discretisation error"), "estimate",
+                         tr("Solves again on a coarser mesh and compares the displacements of the electrodes"));
+  uniform_ = pushButton(
+      tr("Compare with uniform load"), "compareUniform",
       tr("Colours the block by the difference between this touch and the same force spread uniformly over the load "
          "area beneath it, as in the paper; the Resistance scene shows the same comparison"));
+  uniform_->setCheckable(true);
   uniform_->hide();
   probe_ = markupLabel();
   probe_->setObjectName("probe");
@@ -77,11 +76,7 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
-  lines->addWidget(difference_);
-  lines->addWidget(result_);
-  lines->addWidget(estimate_);
-  lines->addWidget(uniform_);
-  lines->addWidget(probe_);
+  addTo(*lines, {difference_, result_, estimate_, uniform_, probe_});
   connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformAsked);
   connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateAsked);
 }

@@ -27,7 +27,7 @@ public:
 
   void setTheme(Theme theme);
   void displayProject(const Project& project);
-  /// `kept`: the design that is shown beside it; null: none.
+  /// `kept`: the design that it is compared with; null: none.
   void displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept);
   void drawNewton();
   /// Shows the plot along the line.

@@ -1,19 +1,17 @@
 #pragma once
 
 #include "app/gui/project/ViewSettings.h"
+#include "app/gui/widgets/FieldBindings.h"
 
 #include <QWidget>
 
 #include <array>
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 
 namespace palp {
 
-/// How the block is drawn: colour and legend, warp, cut and what is shown with it.
+/// How the block is drawn: colour and legend, deformation scale, cut and what is shown with it.
 class ViewPanel : public QWidget {
   Q_OBJECT
 
@@ -34,10 +32,11 @@ private:
   void buildWarp(QFormLayout& form);
   void buildCut(QFormLayout& form);
   void read();
+  void readInto(ViewSettings& view) const;
   void chooseQuantity();
   void chooseKept();
 
-  ViewSettings view_;
+  FieldBindings<ViewSettings> fields_;
   Eigen::Vector3d block_mm_ = paperDesign().block_mm;
   bool displaying_ = false;
   QComboBox* quantity_ = nullptr;
@@ -49,12 +48,6 @@ private:
   QDoubleSpinBox* warp_ = nullptr;
   QComboBox* cut_ = nullptr;
   QDoubleSpinBox* cutAt_ = nullptr;
-  QCheckBox* extremes_ = nullptr;
-  QCheckBox* ghost_ = nullptr;
-  QCheckBox* electrodes_ = nullptr;
-  QCheckBox* arrows_ = nullptr;
-  QCheckBox* outlines_ = nullptr;
-  QCheckBox* edges_ = nullptr;
 };
 
 } // namespace palp

@@ -12,9 +12,9 @@ namespace palp {
 
 namespace {
 
-constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+constexpr double kLegendLine_px = 32; // of a legend's entry without its name
 constexpr double kMarkGap_px = 3;     // between a mark's line and its words
-constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside it, where it is read
+constexpr double kSwatch_px = 18;     // of a curve's colour and the gap after it, in the reading
 constexpr double kReadingGap_px = 6;  // around what is read
 constexpr double kHatch = 0.25;       // opacity of the ground where values are doubted
 constexpr double kOwnColor = 0.25;    // share of a curve's colour that it keeps there
@@ -144,7 +144,7 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
                        (held_ ? tr(", frozen: double click to resume") : QString()));
   painter.save();
   const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
-  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
+  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // complete, if it fits
   painter.translate(line / 2 + 4, middle);
   painter.rotate(-90);
   painter.drawText(QRectF(-label / 2, -line / 2, label, line), Qt::AlignCenter, spec_.yLabel);
@@ -237,7 +237,7 @@ std::vector<StripChart::WordsOfMark> StripChart::wordsOfMarks(const QRectF& plot
   for (const auto& [t_s, text] : spec_.marks) {
     const double x = xOf(plot, t_s);
     if (x < plot.left() || x > plot.right() || text.isEmpty()) continue;
-    const bool alarm = text.startsWith("alarm: "); // the cursor says more of it
+    const bool alarm = text.startsWith("alarm: "); // the cursor shows more of it
     const QString words =
         metrics.elidedText(alarm ? tr("alarm") : text, Qt::ElideRight, plot.width() - 2 * kMarkGap_px);
     const double width = metrics.horizontalAdvance(words);
@@ -347,7 +347,7 @@ QString StripChart::reading() const {
   return words.join("\n");
 }
 
-/// Of the values: what stands in brackets in the axis' label.
+/// The unit of the values: the text in brackets in the axis label.
 QString StripChart::unit() const {
   const QString unit = spec_.yLabel.section('[', 1).section(']', 0, 0);
   return unit.isEmpty() ? QString() : " " + unit;

@@ -19,8 +19,8 @@ public:
   VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent = nullptr);
   ~VtkView() override;
 
-  /// Gives back what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
-  /// stands still; the next drawing begins anew.
+  /// Releases what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
+  /// does not change; the next drawing starts from scratch.
   void giveBack();
   /// It holds what drawing needs.
   [[nodiscard]] bool drawn() const;

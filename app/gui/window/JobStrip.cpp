@@ -1,6 +1,7 @@
 #include "app/gui/window/JobStrip.h"
 
 #include "app/gui/jobs/JobRunner.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QHBoxLayout>
 #include <QProgressBar>
@@ -29,12 +30,8 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   bar_->setFixedWidth(140);
   bar_->setMaximumHeight(14);
   bar_->setTextVisible(false);
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName("cancel");
-  cancel_->setToolTip(tr("Cancels the computation; the last good result is kept (Esc)"));
-  row->addWidget(words_);
-  row->addWidget(bar_);
-  row->addWidget(cancel_);
+  cancel_ = pushButton(tr("Cancel"), "cancel", tr("Cancels the computation; the last good result is kept (Esc)"));
+  addTo(*row, {words_, bar_, cancel_});
   hide();
   wait_.setSingleShot(true);
   wait_.setInterval(kShownAfter_ms);

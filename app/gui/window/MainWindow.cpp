@@ -134,7 +134,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   new HistorySteps(*this, workbench);
   connect(&network, &NetworkSession::memoryNeeded, this, &MainWindow::giveBackMemory);
   connect(&workbench, &Workbench::projectReplaced, this,
-          &MainWindow::giveBackMemory); // after the document let go of it
+          &MainWindow::giveBackMemory); // after the document has released it
   setAcceptDrops(true);
   connect(new EscapeKey(this), &EscapeKey::pressed, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
@@ -158,7 +158,7 @@ void MainWindow::buildStatusLine() {
   connect(status, &StatusLamps::message, this, &MainWindow::showMessage);
   connect(status, &StatusLamps::sceneAsked, this, &MainWindow::showScene);
   lamps_ = status;
-  auto* messages = new QToolButton; // after the lamps: where one looks for what was said
+  auto* messages = new QToolButton; // after the lamps: where users look for messages
   messages->setObjectName("messagesShown");
   messages->setAutoRaise(true);
   messages->setDefaultAction(log_->toggleViewAction());
@@ -271,7 +271,7 @@ void MainWindow::animate(const QString& path, const FilmSettings& film) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
-  if (!sentence.isEmpty()) log_->add(sentence); // else what stands there is over
+  if (!sentence.isEmpty()) log_->add(sentence); // else the message there is over
 }
 
 void MainWindow::restoreLayout() {

@@ -54,9 +54,9 @@ public:
   [[nodiscard]] bool busy() const;
   /// Size of the view that a film shows.
   [[nodiscard]] QSize filmedSize() const;
-  /// Draws the load path into a GIF or a folder; says why where it cannot.
+  /// Draws the load path into a GIF or a folder; reports why where it cannot.
   void animate(const QString& path, const FilmSettings& film);
-  /// Says a sentence in the status line, and keeps it in the log of messages.
+  /// Shows a sentence in the status line, and keeps it in the log of messages.
   void showMessage(const QString& sentence);
 
 signals:

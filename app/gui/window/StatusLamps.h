@@ -21,8 +21,8 @@ struct SceneJob {
   QString scene;
 };
 
-/// What goes on, in the status line of every scene: the boards that stream, record or give alarm, and all jobs. A click
-/// leads to its scene.
+/// What is running, in the status line of every scene: the boards that stream, record or give alarm, and all jobs. A
+/// click leads to its scene.
 class StatusLamps : public QObject {
   Q_OBJECT
 

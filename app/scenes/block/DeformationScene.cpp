@@ -261,7 +261,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   Eigen::Matrix3Xd extremes(3, static_cast<Eigen::Index>(parts.marks.size()));
   for (std::size_t k = 0; k < parts.marks.size(); ++k) {
     extremes.col(static_cast<Eigen::Index>(k)) = parts.marks[k].place_mm;
-    parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the words beside their point
+    parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the text next to its point
   }
   parts.extremes.set(extremes, ink.text);
   parts.extremes.setVisible(!parts.marks.empty());
@@ -294,7 +294,7 @@ void DeformationScene::resetCamera(const SensorDesign& design, double aspect, co
   Eigen::Matrix3Xd points(3, 9);
   points << boxCorners(design.block_mm), 0.5 * design.block_mm;
   points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
-  // Straight views fill the picture to its corners, where words and legend stand.
+  // Straight views fill the picture to its corners, where text and legend are drawn.
   const double more = direction.normalized().cwiseAbs().maxCoeff() > 1 - 1e-9 ? 0.07 : 0;
   fitCamera(*parts_->renderer, points, direction, aspect,
             {0.03, 0.03 + more + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08 + more});

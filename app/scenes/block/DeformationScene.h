@@ -60,7 +60,7 @@ struct DeformationOptions {
   std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
   Theme theme = Theme::Light;
   double scale = 1;      ///< of text and lines
-  bool fullLoad = false; ///< says "100 % of the load" too, as in a film
+  bool fullLoad = false; ///< shows "100 % of the load" too, as in a film
 };
 
 /// The load step to draw: what it was computed from and what came out. All but design and mesh may be null (at rest).
@@ -72,11 +72,11 @@ struct DeformationState {
   const LoadCase* load = nullptr;
   double loadFraction = 1;
   std::vector<IndenterState> indenters{}; ///< what the load's indenters do; empty at rest
-  // Where the difference to a kept design is shown; null while that is not there.
+  // For the difference from a reference design; null until that is available.
   const SensorDesign* keptDesign = nullptr;
   const LoadCase* keptLoad = nullptr;
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
-  /// The current's way in this state: drawn in a block without colours.
+  /// The current paths in this state: drawn in a block without colours.
   const CurrentLines* current = nullptr;
   /// Of the block at rest: drawn over its top face.
   const FaceMap* map = nullptr;
@@ -101,7 +101,7 @@ public:
   [[nodiscard]] vtkRenderer* renderer() const;
   /// Draws the state; the mesh's surface is found again only where `meshChanged`.
   void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
-  /// Looks at the whole block from the front, above and the left, in a view `aspect` times as wide as high.
+  /// Looks at the complete block from the front, above and the left, in a view `aspect` times as wide as high.
   void resetCamera(const SensorDesign& design, double aspect);
   /// Looks at it along a direction; the legend takes this share of the width.
   void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
@@ -119,7 +119,7 @@ public:
   /// Marks a mesh node; -1 marks none.
   void markNode(int node);
 
-  /// What the balls stand for that have no words of their own in the picture, at their places.
+  /// The balls without text in the picture: what each marks, with its position.
   [[nodiscard]] std::vector<PlacedText> tips() const;
 
   /// The arrows as drawn, and their scale.

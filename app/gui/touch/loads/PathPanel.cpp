@@ -1,6 +1,7 @@
 #include "app/gui/touch/loads/PathPanel.h"
 
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
@@ -51,9 +52,7 @@ const IndenterState* stateAtEnd(const Solution* solution, int load, int indenter
 PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  words_ = new QLabel;
-  words_->setObjectName("pathHint");
-  words_->setWordWrap(true);
+  words_ = textLabel("pathHint");
   column->addWidget(words_);
   table_ = new QTableWidget;
   table_->setObjectName("pathSteps");
@@ -66,9 +65,7 @@ PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   column->addWidget(table_, 1);
   auto* row = new QHBoxLayout;
   const auto button = [&](const QString& text, const char* name, const QString& tip, void (PathPanel::*slot)()) {
-    auto* made = new QPushButton(text);
-    made->setObjectName(name);
-    made->setToolTip(tip);
+    auto* made = pushButton(text, name, tip);
     connect(made, &QPushButton::clicked, this, slot);
     row->addWidget(made);
     return made;
