@@ -123,7 +123,7 @@ void parseSweeps(const QByteArray& text, const QString& file, NetworkResults& re
   const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
   const JsonPlace root(json, name);
   formatVersion(root, kVersionKey, kVersion);
-  if (root.has("samples") && root.at("samples").asJson() != samplesJson(*results.samples).dump())
+  if (root.has("samples") && root.at("samples").asJson() != jsonText(samplesJson(*results.samples)))
     throw Error(name + ": its sweep and comparison belong to other samples than the project's; they are not shown");
   auto found = JsonFields::read<NetworkResults>(root);
   results.sweep = std::move(found.sweep);
