@@ -25,7 +25,7 @@ struct WayOnward {
 
 WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
   const bool goesOn = frame.forces.valid && frame.forces.missingReadings > 0;
-  if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.decoder()) return {};
+  if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.network().decoder()) return {};
   if (!frame.frame.complete)
     return {goesOn ? QObject::tr("Forces continue without it, with larger deviations.") : QString(), {}};
   const auto rows = static_cast<int>(frame.frame.rowExpected.size());

@@ -30,7 +30,7 @@ LiveCurves::LiveCurves(LiveHost& host, QWidget* parent) : QSplitter(Qt::Horizont
 }
 
 const Decoder* LiveCurves::decoder() const {
-  return host_.decoder() ? &*host_.decoder() : nullptr;
+  return host_.network().decoder() ? &*host_.network().decoder() : nullptr;
 }
 
 /// A recording's time counts from its first report.

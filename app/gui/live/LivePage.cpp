@@ -68,7 +68,8 @@ LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
   connect(&hiddenTimer_, &QTimer::timeout, this, &LivePage::lookHidden);
   connect(&workbench_, &Workbench::projectChanged, this, &LivePage::displayProject);
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
-    host_.forgetNetworkBefore();
+    host_.network().forgetBefore();
+    emit host_.decoderChanged();
     calibration_->forgetFit();
   });
   workbench_.lossQuestion().ask(*this, [this](const Leaving& leaving) {
@@ -183,7 +184,7 @@ void LivePage::connectPanels() {
   connect(replay_, &ReplayBar::boardAsked, this, [this] {
     change(tr("source"), [](LiveSettings& settings) { settings.source = LiveSourceKind::Automatic; });
   });
-  connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
+  connect(control_, &LiveControlPanel::backAsked, &host_.network(), &LiveNetwork::restore);
   connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
   connect(source_, &LiveSourcePanel::openAgainAsked, this, [this] {
     if (!host_.recording() || acceptsLosses({recordingEnds()}, this)) host_.restart();
@@ -200,8 +201,8 @@ void LivePage::connectPanels() {
   connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
   connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
-  connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
-  connect(&host_, &LiveHost::otherNetworkInUse, this, &LivePage::takeNetworkInUse);
+  connect(&host_.network(), &LiveNetwork::refused, this, &LivePage::refuseNetwork);
+  connect(&host_.network(), &LiveNetwork::otherInUse, this, &LivePage::takeNetworkInUse);
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     control_->displayNetworkProblem({});
     stateLook_ = 0;
@@ -280,8 +281,9 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
-  if (host_.decoder()) takeNetworkInUse();
-  const QString words = host_.decoder() ? tr("%1. Still in use: %2.").arg(sentence, host_.networkName()) : sentence;
+  if (host_.network().decoder()) takeNetworkInUse();
+  const QString words =
+      host_.network().decoder() ? tr("%1. Still in use: %2.").arg(sentence, host_.network().name()) : sentence;
   control_->displayNetworkProblem(words);
   emit message(words);
 }
@@ -290,8 +292,8 @@ void LivePage::refuseNetwork(const QString& sentence) {
 void LivePage::takeNetworkInUse() {
   if (board_ >= workbench_.project().boards()) return; // it is about to go
   change(tr("network"), [&](LiveSettings& settings) {
-    settings.network = host_.networkFile();
-    settings.calibrated = host_.calibrated();
+    settings.network = host_.network().file();
+    settings.calibrated = host_.network().calibrated();
   });
 }
 
@@ -316,8 +318,8 @@ void LivePage::displayProject() {
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(), &calibration_->runner(), &calibration_->writer(),
-          &host_.loader(),  &host_.simulator(),      &exporter_};
+  return {&twin_->runner(),          &calibration_->runner(), &calibration_->writer(),
+          &host_.network().loader(), &host_.simulator(),      &exporter_};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {
@@ -325,7 +327,7 @@ QString LivePage::commands(const Project& project, const QString&) const {
 }
 
 bool LivePage::complete() const {
-  if (host_.loading()) return false;
+  if (host_.network().loading()) return false;
   const bool waited = shownSince_s_ > 0 && hostClock_s() - shownSince_s_ > kSnapshotPatience_s;
   return waited || (host_.simulated() && arrowSeen_);
 }

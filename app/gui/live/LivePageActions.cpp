@@ -80,8 +80,10 @@ void LivePage::exportFrames(const QString& file) {
 }
 
 void LivePage::exportRecording(const QString& file) {
-  RecordingTableRequest request{host_.settings().recording, file.toStdString(), host_.decoder(), {}, {}, true};
-  const bool known = host_.decoder() && designFingerprint(host_.sensor()) == host_.decoder()->designFingerprint;
+  RecordingTableRequest request{
+      host_.settings().recording, file.toStdString(), host_.network().decoder(), {}, {}, true};
+  const bool known =
+      host_.network().decoder() && designFingerprint(host_.sensor()) == host_.network().decoder()->designFingerprint;
   if (known) request.design = host_.sensor();
   request.head = sourceOf(*this).toStdString();
   exporter_.start(
@@ -133,9 +135,9 @@ QStringList LivePage::lossesByClosing() const {
   if (const int frames = unsavedFrames(); frames > 0)
     losses << tr("%1 labelled frames of this board are not saved. Use Save... under Calibration to keep them.")
                   .arg(frames);
-  if (host_.calibrated())
+  if (host_.network().calibrated())
     losses << tr("The network %1 is used only here and is not saved. Use Save network... under Calibration to keep it.")
-                  .arg(host_.networkName());
+                  .arg(host_.network().name());
   return losses;
 }
 
@@ -153,7 +155,8 @@ void LivePage::solveTwin() {
     return;
   }
   const SensorDesign& sensor = host_.sensor();
-  const LoadCase load = host_.decoder() ? loadOf(last->forces, *host_.decoder(), sensor) : LoadCase{};
+  const LoadCase load =
+      host_.network().decoder() ? loadOf(last->forces, *host_.network().decoder(), sensor) : LoadCase{};
   if (load == LoadCase{}) {
     emit message(tr("No touch on the sensor: press it, then request the model view."));
     return;
