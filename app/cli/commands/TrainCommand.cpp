@@ -68,7 +68,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
   if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
-    sayMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
+    printMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,

@@ -66,13 +66,13 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   });
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     if (runner_.running()) runner_.cancel(); // of the other project
-    keptBefore_.clear();
+    referencesBefore_.clear();
     asked_.reset();
     displayProject();
   });
   // The history has its new entry only after the project has changed.
   connect(&workbench_.history(), &QUndoStack::indexChanged, this, &DesignComparison::displayProject);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   displayProject();
 }
 
@@ -149,7 +149,7 @@ void DesignComparison::listChoices() {
               (each.design == project.kept ? tr(" (reference)") : QString()),
           each.design);
   if (project.kept) offer(tr("the reference design (%1)").arg(blockWords(*project.kept)), *project.kept);
-  for (const SensorDesign& each : keptBefore_) offer(tr("former reference (%1)").arg(blockWords(each)), each);
+  for (const SensorDesign& each : referencesBefore_) offer(tr("former reference (%1)").arg(blockWords(each)), each);
   const auto& compared = project.studies.compared;
   if (compared) offer(QString::fromStdString(compared->name), compared->earlier);
   const QSignalBlocker quiet(list_);
@@ -174,7 +174,7 @@ void DesignComparison::choose(int index) {
 
 void DesignComparison::keep() {
   Project next = workbench_.project();
-  if (next.kept && next.kept != next.design) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  if (next.kept && next.kept != next.design) referencesBefore_.insert(referencesBefore_.begin(), *next.kept);
   next.kept = asked_ = next.design;
   workbench_.closeEntry();
   workbench_.edit(tr("Set the reference design"), next);
@@ -191,11 +191,11 @@ void DesignComparison::goBack() {
 void DesignComparison::showFields() {
   Project next = workbench_.project();
   const SensorDesign with = chosen()->design;
-  if (next.kept && next.kept != with) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  if (next.kept && next.kept != with) referencesBefore_.insert(referencesBefore_.begin(), *next.kept);
   next.kept = asked_ = with;
-  next.view.lessKept = true;
+  next.view.lessReference = true;
   workbench_.edit(tr("Show the difference of the fields"), next);
-  emit fieldsAsked();
+  emit fieldsRequested();
 }
 
 void DesignComparison::displayProject() {

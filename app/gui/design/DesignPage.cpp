@@ -104,14 +104,14 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     if (!meshChanged) return;
     ++mesh_;
     measured_.reset();
-    measureAsked_ = false;
+    measureRequested_ = false;
     draw();
     displayMesh();
   });
-  connect(comparison_, &DesignComparison::fieldsAsked, this, [this] { emit sceneAsked("deformation"); });
+  connect(comparison_, &DesignComparison::fieldsRequested, this, [this] { emit sceneRequested("deformation"); });
   connect(map_, &DesignMap::overBlockChanged, this, &DesignPage::draw);
   // What was cancelled is requested again when the page is next updated.
-  connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureAsked_ &= !cancelled; });
+  connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureRequested_ &= !cancelled; });
   displayProject();
 }
 
@@ -279,7 +279,7 @@ void DesignPage::displayMesh() {
 }
 
 void DesignPage::measureMesh() {
-  if (std::exchange(measureAsked_, true)) return;
+  if (std::exchange(measureRequested_, true)) return;
   measuring_.start(tr("Measuring the mesh"),
                    [this, number = mesh_, touch = workbench_.touch().touch()](const std::stop_token&,
                                                                               JobProgress&) -> JobRunner::Taking {

@@ -87,7 +87,7 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
     connect(box, &QDoubleSpinBox::valueChanged, this, [this] { readSettings(true); });
   connect(start_, &QPushButton::clicked, this, &DesignSweep::run);
   connect(save_, &QPushButton::clicked, this, &DesignSweep::saveTable);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::started, this, [this] { start_->setEnabled(false); });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {

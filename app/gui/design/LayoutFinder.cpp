@@ -51,7 +51,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   column->addStretch(1);
   connect(search_, &QPushButton::clicked, this, &LayoutFinder::search);
   connect(takeOver_, &QPushButton::clicked, this, &LayoutFinder::takeOver);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {

@@ -9,6 +9,6 @@ namespace palp {
 class JobRunner;
 
 /// The label shows the progress of the runner: "Computing, 40 %: response of area 3 of 6, about 20 s left".
-void sayProgress(JobRunner& runner, QLabel& label);
+void showProgress(JobRunner& runner, QLabel& label);
 
 } // namespace palp

@@ -32,7 +32,7 @@ QString recordingWords(const QString& file) {
 }
 
 /// Without waiting for an answer.
-void sayCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
+void reportCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
   QStringList words;
   for (const LeftWork& work : left) {
     for (const QString& file : work.recordings) words << recordingWords(file);
@@ -81,7 +81,7 @@ void recoverWork(MainWindow& window, Autosave& autosave, const LeftWork& work) {
 
 void offerRecovery(MainWindow& window, Autosave& autosave, const QString& root) {
   const std::vector<LeftWork> left = Autosave::left(root); // no other window offers any of it meanwhile
-  sayCutRecordings(window, left);
+  reportCutRecordings(window, left);
   for (const LeftWork& work : left) {
     const RecoveryWish wish = work.project ? askAbout(window, work) : RecoveryWish::Discard;
     if (wish == RecoveryWish::Discard) Autosave::forget(work);

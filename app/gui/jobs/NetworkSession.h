@@ -77,7 +77,7 @@ struct NetworkResults {
   std::shared_ptr<const NetworkFit> fit;
   std::shared_ptr<const NetworkFit> before;            ///< that was shown before it; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
-  std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
+  std::set<QDateTime> removed;                         ///< when the networks were made that were taken off that list
   /// Networks that were removed from it, the last ones last, each with its index; not written to files.
   std::vector<std::vector<std::pair<std::size_t, std::shared_ptr<const NetworkFit>>>> away;
   std::vector<SweepPoint> sweep;

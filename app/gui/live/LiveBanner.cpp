@@ -106,8 +106,8 @@ LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
     QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
   });
   connect(otherRows_, &QPushButton::clicked, this,
-          [this] { emit networkOfRowsAsked(otherRows_->property("rows").toString()); });
-  connect(tare_, &QPushButton::clicked, this, &LiveBanner::tareAsked);
+          [this] { emit networkOfRowsRequested(otherRows_->property("rows").toString()); });
+  connect(tare_, &QPushButton::clicked, this, &LiveBanner::tareRequested);
   keepRoom(*this);
   hide();
 }

@@ -97,8 +97,8 @@ void LiveBoards::build() {
     connect(panel, &SidePanel::foldedNow, panelShown, [panelShown](bool folded) { panelShown->setChecked(!folded); });
   }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
-  connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
-  connect(page, &LivePage::sceneAsked, this, &LiveBoards::sceneAsked);
+  connect(page, &LivePage::anotherRequested, this, &LiveBoards::add);
+  connect(page, &LivePage::sceneRequested, this, &LiveBoards::sceneRequested);
   connect(page, &LivePage::looked, this, [this] {
     if (cells_.size() > 1 && isVisible()) displayTitles();
     tellRecordings();

@@ -35,7 +35,7 @@ public:
 
 signals:
   void message(const QString& sentence);
-  void sceneAsked(const QString& name);
+  void sceneRequested(const QString& name);
   /// lamps() may say something else.
   void looked();
   void recordingsChanged(const QStringList& files);

@@ -269,7 +269,7 @@ bool LiveCalibration::mayCollect() {
   }
   const int answer = question.exec();
   if (put != nullptr && question.clickedButton() == put) {
-    emit simulatedLoadAsked(label);
+    emit simulatedLoadRequested(label);
     emit message(tr("The simulated board now carries the labelled load: collect a frame."));
   }
   return answer == QMessageBox::Yes;

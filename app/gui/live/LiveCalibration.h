@@ -45,7 +45,7 @@ signals:
   /// By the user: shown().
   void framesEdited();
   /// The simulated board is to bear this load.
-  void simulatedLoadAsked(const palp::KnownTouch& load);
+  void simulatedLoadRequested(const palp::KnownTouch& load);
 
 private:
   QWidget* buildLabel();

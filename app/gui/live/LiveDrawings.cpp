@@ -91,8 +91,8 @@ Eigen::Index strongest(const DecodedForces& forces) {
 }
 
 /// The times in which forces are doubted; each reaches to the next frame.
-std::vector<StripDoubt> doubts(const LiveHistory& history, const LiveSettings& settings) {
-  std::vector<StripDoubt> all;
+std::vector<ImplausibleSpan> doubts(const LiveHistory& history, const LiveSettings& settings) {
+  std::vector<ImplausibleSpan> all;
   const auto& entries = history.entries();
   bool lasts = false;
   for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {

@@ -200,7 +200,7 @@ void LiveHost::open() {
 }
 
 // A source may take long to end, and a future waits where it is destroyed: neither in the window's thread.
-template <class Running> void LiveHost::letGo(std::unique_ptr<Running> old) {
+template <class Running> void LiveHost::endInBackground(std::unique_ptr<Running> old) {
   std::erase_if(closing_, [](const std::future<void>& ending) {
     return ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   });
@@ -209,13 +209,13 @@ template <class Running> void LiveHost::letGo(std::unique_ptr<Running> old) {
 
 void LiveHost::restart() {
   paused_ = false;
-  letGo(std::move(session_));
+  endInBackground(std::move(session_));
   open();
 }
 
 void LiveHost::setVisible(bool visible) {
   visible_ = visible;
-  if (!visible) letGo(std::move(watch_));
+  if (!visible) endInBackground(std::move(watch_));
   if (visible && !watch_) watch_ = std::make_unique<BoardWatch>(access_);
   if (visible && !session_) open();
   if (visible && !network_.requested()) loadNetwork();
@@ -230,13 +230,13 @@ void LiveHost::close() {
   simulator().cancel();
   network_.loader().cancel();
   sending_.follow({});
-  letGo(std::move(watch_));
-  letGo(std::move(session_));
+  endInBackground(std::move(watch_));
+  endInBackground(std::move(session_));
   status_ = {};
 }
 
 bool LiveHost::closed() {
-  letGo<LiveSession>(nullptr); // forgets those that have ended
+  endInBackground<LiveSession>(nullptr); // forgets those that have ended
   return closing_.empty() && sending_.settled() && !session_ && !watch_ && !network_.loading() &&
          !simulator().running();
 }

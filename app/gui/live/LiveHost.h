@@ -113,7 +113,7 @@ signals:
 private:
   void open();
   /// Ends a thread of its own without waiting for it.
-  template <class Running> void letGo(std::unique_ptr<Running> old);
+  template <class Running> void endInBackground(std::unique_ptr<Running> old);
   void loadNetwork();
   void applyNetwork();
   void applyPause();

@@ -5,7 +5,7 @@
 #include "app/gui/live/LiveCounters.h"
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
@@ -112,12 +112,12 @@ QWidget* LivePage::buildViews() {
   block_ = new LiveView;
   block_->setObjectName("liveBlock");
   block_->setAccessibleName(tr("Force vectors over the sensor"));
-  twin_ = new LiveTwin;
-  twin_->setObjectName("liveTwin");
+  modelView_ = new LiveModelView;
+  modelView_->setObjectName("liveTwin");
   blockTabs_ = new QTabWidget;
   blockTabs_->setObjectName("blockTabs");
   blockTabs_->addTab(block_, tr("Forces"));
-  blockTabs_->addTab(twin_, tr("Model view"));
+  blockTabs_->addTab(modelView_, tr("Model view"));
   blockTabs_->setTabToolTip(1, tr("Finite element model under the decoded force, solved on request"));
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("liveHeatmap");
@@ -178,28 +178,28 @@ void LivePage::connectPanels() {
   connect(send_, &SendPanel::edited, this, &LivePage::edit);
   connectSimulation();
   connect(replay_, &ReplayBar::message, this, &LivePage::message);
-  connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
+  connect(replay_, &ReplayBar::speedRequested, this, [this](double speed) {
     change(tr("replay speed"), [&](LiveSettings& settings) { settings.replaySpeed = speed; });
   });
-  connect(replay_, &ReplayBar::boardAsked, this, [this] {
+  connect(replay_, &ReplayBar::boardRequested, this, [this] {
     change(tr("source"), [](LiveSettings& settings) { settings.source = LiveSourceKind::Automatic; });
   });
-  connect(control_, &LiveControlPanel::backAsked, &host_.network(), &LiveNetwork::restore);
-  connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
-  connect(source_, &LiveSourcePanel::openAgainAsked, this, [this] {
+  connect(control_, &LiveControlPanel::backRequested, &host_.network(), &LiveNetwork::restore);
+  connect(control_, &LiveControlPanel::shippedRequested, &host_, &LiveHost::useChosenNetwork);
+  connect(source_, &LiveSourcePanel::openAgainRequested, this, [this] {
     if (!host_.recording() || acceptsLosses({recordingEnds()}, this)) host_.restart();
   });
-  connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
-  connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
-  connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
-  connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
-  connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
+  connect(source_, &LiveSourcePanel::anotherRequested, this, &LivePage::anotherRequested);
+  connect(control_, &LiveControlPanel::tareRequested, this, &LivePage::tare);
+  connect(control_, &LiveControlPanel::clearTareRequested, &host_, &LiveHost::clearTare);
+  connect(control_, &LiveControlPanel::pauseRequested, &host_, &LiveHost::setPaused);
+  connect(control_, &LiveControlPanel::markRequested, this, [this](const QString& text) {
     host_.mark(text.toStdString());
     emit message(host_.recording() ? tr("Marked: %1.").arg(text)
                                    : tr("Marked: %1; no recording is running.").arg(text));
   });
-  connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
-  connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
+  connect(control_, &LiveControlPanel::recordRequested, this, &LivePage::record);
+  connect(control_, &LiveControlPanel::exportRequested, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
   connect(&host_.network(), &LiveNetwork::refused, this, &LivePage::refuseNetwork);
   connect(&host_.network(), &LiveNetwork::otherInUse, this, &LivePage::takeNetworkInUse);
@@ -213,13 +213,13 @@ void LivePage::connectPanels() {
   connect(calibration_, &LiveCalibration::framesEdited, this, [this] {
     change(tr("labelled frames"), [&](LiveSettings& settings) { settings.frames = calibration_->shown(); });
   });
-  connect(calibration_, &LiveCalibration::simulatedLoadAsked, this, [this](const KnownTouch& load) {
+  connect(calibration_, &LiveCalibration::simulatedLoadRequested, this, [this](const KnownTouch& load) {
     change(tr("simulated touch"), [&](LiveSettings& settings) { holdLabel(settings.simulation, load); });
   });
-  connect(banner_, &LiveBanner::tareAsked, this, &LivePage::tare);
-  connect(banner_, &LiveBanner::networkOfRowsAsked, this, &LivePage::prepareNetwork);
-  connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
-  connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
+  connect(banner_, &LiveBanner::tareRequested, this, &LivePage::tare);
+  connect(banner_, &LiveBanner::networkOfRowsRequested, this, &LivePage::prepareNetwork);
+  connect(modelView_, &LiveModelView::solveRequested, this, &LivePage::solveModelView);
+  connect(modelView_, &LiveModelView::loadRequested, this, [this](const LoadCase& load) {
     Project next = workbench_.project();
     next.design = host_.sensor();
     next.load = load;
@@ -230,8 +230,8 @@ void LivePage::connectPanels() {
 
 void LivePage::connectSimulation() {
   connect(simulation_, &SimulationPanel::edited, this, &LivePage::edit);
-  connect(simulation_, &SimulationPanel::plugAsked, &host_, &LiveHost::setPluggedIn);
-  connect(simulation_, &SimulationPanel::designAsked, this, [this] {
+  connect(simulation_, &SimulationPanel::plugRequested, &host_, &LiveHost::setPluggedIn);
+  connect(simulation_, &SimulationPanel::designRequested, this, [this] {
     if (!host_.simulatesOwnDesign()) host_.simulateDesign(workbench_.project().mesh);
   });
   connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
@@ -263,7 +263,7 @@ void LivePage::connectSimulation() {
   connect(block_, &LiveView::placeStepped, this, [this, place](const Eigen::Vector2d& by_mm) {
     place(Eigen::Vector2d(settings().simulation.heldPlace_mm.data()) + by_mm);
   });
-  connect(block_, &LiveView::handAsked, this, [this] {
+  connect(block_, &LiveView::handRequested, this, [this] {
     if (!host_.simulated()) return;
     change(tr("simulated touch"), [](LiveSettings& settings) { settings.simulation.held = !settings.simulation.held; });
   });
@@ -318,7 +318,7 @@ void LivePage::displayProject() {
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(),          &calibration_->runner(), &calibration_->writer(),
+  return {&modelView_->runner(),     &calibration_->runner(), &calibration_->writer(),
           &host_.network().loader(), &host_.simulator(),      &exporter_};
 }
 

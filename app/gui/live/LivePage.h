@@ -23,7 +23,7 @@ class LiveControlPanel;
 class LiveCounters;
 class LiveCurves;
 class LiveSourcePanel;
-class LiveTwin;
+class LiveModelView;
 class LiveView;
 class ReplayBar;
 class SidePanel;
@@ -50,7 +50,7 @@ public:
   [[nodiscard]] int unsavedFrames() const;
   /// What ends or is lost where this board is closed, in sentences.
   [[nodiscard]] QStringList lossesByClosing() const;
-  [[nodiscard]] LiveTwin& twin() { return *twin_; }
+  [[nodiscard]] LiveModelView& twin() { return *modelView_; }
   /// How often the views were brought up to date.
   [[nodiscard]] int looks() const { return looks_; }
   /// Which of the project's boards it shows, from the next change of the project on.
@@ -64,8 +64,8 @@ public:
 
 signals:
   void message(const QString& sentence);
-  void anotherAsked();
-  void sceneAsked(const QString& name);
+  void anotherRequested();
+  void sceneRequested(const QString& name);
   /// After each look, seen or hidden.
   void looked();
 
@@ -104,7 +104,7 @@ private:
   [[nodiscard]] QString recordingEnds() const;
   void takeNetworkInUse();
   void stopRecording();
-  void solveTwin();
+  void solveModelView();
   void prepareNetwork(const QString& rows);
   [[nodiscard]] const LiveSettings& settings() const { return workbench_.project().board(board_); }
 
@@ -129,7 +129,7 @@ private:
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;
   LiveView* block_ = nullptr;
-  LiveTwin* twin_ = nullptr;
+  LiveModelView* modelView_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
   LiveCurves* curves_ = nullptr;
   LiveCalibration* calibration_ = nullptr;

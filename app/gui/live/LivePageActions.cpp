@@ -2,8 +2,8 @@
 
 #include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LivePage.h"
-#include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/recordings/RecordingName.h"
 #include "app/gui/views/CsvExport.h"
@@ -148,7 +148,7 @@ void LivePage::stopRecording() {
                    .arg(QString::fromStdString(host_.recordingFile().string())));
 }
 
-void LivePage::solveTwin() {
+void LivePage::solveModelView() {
   const LiveFrame* last = host_.history().lastValid();
   if (last == nullptr) {
     emit message(tr("No force has been decoded yet."));
@@ -161,9 +161,9 @@ void LivePage::solveTwin() {
     emit message(tr("No touch on the sensor: press it, then request the model view."));
     return;
   }
-  blockTabs_->setCurrentWidget(twin_);
+  blockTabs_->setCurrentWidget(modelView_);
   const bool own = sensor == workbench_.project().design;
-  twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
+  modelView_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
 }
 
 /// The Network scene is left to generate, train and save; what it needs for such a board is set.
@@ -183,7 +183,7 @@ void LivePage::prepareNetwork(const QString& rows) {
   workbench_.edit(tr("Select intact row-wires"), next);
   emit message(
       tr("The network is set to row-wires %1: generate samples, train it here, then press Use in Live.").arg(rows));
-  emit sceneAsked("network");
+  emit sceneRequested("network");
 }
 
 int LivePage::unsavedFrames() const {

@@ -5,8 +5,8 @@
 #include "app/gui/live/LiveCounters.h"
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LivePage.h"
-#include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
@@ -90,7 +90,7 @@ void LivePage::draw() {
 
 void LivePage::setTheme(Theme theme) {
   block_->setTheme(theme);
-  twin_->setTheme(theme);
+  modelView_->setTheme(theme);
   heatmap_->setTheme(theme);
   curves_->setTheme(theme);
 }

@@ -43,7 +43,7 @@ signals:
   /// The force of the touch is to change by this [N].
   void forceStepped(const Eigen::Vector3d& by_N);
   /// The touch is to be taken by hand, or released.
-  void handAsked();
+  void handRequested();
 
 protected:
   void changeEvent(QEvent* event) override;

@@ -34,7 +34,7 @@ public:
     return option_.set(tried, typedText(input)) ? Acceptable : Intermediate;
   }
   void fixup(QString& input) const override {
-    sayNotApplied(
+    showNotApplied(
         edit_, QObject::tr("Not applied: got \"%1\", expected %2").arg(input, QString::fromStdString(option_.allowed)));
     input = shown_;
   }

@@ -27,7 +27,7 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
                          "and added to the trained networks"));
   connect(table_, &QTableWidget::itemSelectionChanged, this, &DecodersTab::displayMarked);
   connect(train_, &QPushButton::clicked, this, [this] {
-    if (const auto network = marked()) emit networkAsked(*network);
+    if (const auto network = marked()) emit networkRequested(*network);
   });
   auto* charts = new QSplitter(Qt::Horizontal);
   charts->addWidget(error_);

@@ -87,7 +87,7 @@ void NetworkFiles::takeIntoLive(const std::filesystem::path& network) {
   next.live.network = network.string();
   next.live.calibrated.reset();
   workbench_.edit(tr("Use a network in Live"), next);
-  emit sceneAsked("live");
+  emit sceneRequested("live");
 }
 
 void NetworkFiles::openNetwork() {

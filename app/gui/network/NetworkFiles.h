@@ -32,7 +32,7 @@ public:
 
 signals:
   void problem(const QString& sentence);
-  void sceneAsked(const QString& scene);
+  void sceneRequested(const QString& scene);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 

@@ -66,14 +66,14 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   row->addWidget(buildCharts(), 1);
 
   connect(panel_, &NetworkPanel::edited, this, &NetworkPage::edit);
-  connect(panel_, &NetworkPanel::generateAsked, this,
+  connect(panel_, &NetworkPanel::generateRequested, this,
           [this] { session_.generate(workbench_.project().samples, workbench_.project().mesh); });
-  connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
-  connect(panel_, &NetworkPanel::sweepAsked, this, [this] {
+  connect(panel_, &NetworkPanel::trainRequested, this, [this] { session_.train(workbench_.project().network); });
+  connect(panel_, &NetworkPanel::sweepRequested, this, [this] {
     tabs_->setCurrentWidget(sweep_);
     session_.sweep(workbench_.project().network);
   });
-  connect(panel_, &NetworkPanel::compareAsked, this, [this] {
+  connect(panel_, &NetworkPanel::compareRequested, this, [this] {
     tabs_->setCurrentWidget(decoders_);
     session_.compare(workbench_.project().network);
   });
@@ -81,26 +81,26 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   connect(area_, &QSpinBox::valueChanged, this, [this](int area) {
     workbench_.edit(tr("Choose a test area"), [&](Project& next) { next.view.testArea = area; });
   });
-  connect(panel_, &NetworkPanel::openSamplesAsked, files_, [this] { files_->openSamples(); });
-  connect(panel_, &NetworkPanel::saveSamplesAsked, files_, &NetworkFiles::saveSamples);
+  connect(panel_, &NetworkPanel::openSamplesRequested, files_, [this] { files_->openSamples(); });
+  connect(panel_, &NetworkPanel::saveSamplesRequested, files_, &NetworkFiles::saveSamples);
   connect(save_, &QPushButton::clicked, files_, &NetworkFiles::saveNetwork);
   connect(open_, &QPushButton::clicked, files_, &NetworkFiles::openNetwork);
   connect(live_, &QPushButton::clicked, files_, &NetworkFiles::useInLive);
   connect(files_, &NetworkFiles::problem, this, &NetworkPage::showProblem);
-  connect(files_, &NetworkFiles::sceneAsked, this, &NetworkPage::sceneAsked);
+  connect(files_, &NetworkFiles::sceneRequested, this, &NetworkPage::sceneRequested);
   connect(files_, &NetworkFiles::liveNetworkReplaced, this, &NetworkPage::liveNetworkReplaced);
-  connect(sweep_, &SweepTab::spreadAsked, this, [this](double spread) {
+  connect(sweep_, &SweepTab::spreadRequested, this, [this](double spread) {
     NetworkSettings next = workbench_.project().network;
     next.chosenSpread = spread;
     next.automaticSpread = false;
     takeOver(tr("Take the best spread of the sweep"), next);
   });
-  connect(decoders_, &DecodersTab::networkAsked, this,
+  connect(decoders_, &DecodersTab::networkRequested, this,
           [this](const NetworkSettings& network) { takeOver(tr("Take a decoder of the comparison"), network); });
-  connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
-  connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
-  connect(trained_, &TrainedNetworks::bringBackAsked, &session_, &NetworkSession::bringBack);
-  connect(trained_, &TrainedNetworks::nameAsked, &session_, &NetworkSession::rename);
+  connect(trained_, &TrainedNetworks::goBackRequested, this, &NetworkPage::goBackTo);
+  connect(trained_, &TrainedNetworks::removeRequested, &session_, &NetworkSession::takeAway);
+  connect(trained_, &TrainedNetworks::bringBackRequested, &session_, &NetworkSession::bringBack);
+  connect(trained_, &TrainedNetworks::nameRequested, &session_, &NetworkSession::rename);
   connectSession();
   displayProject();
   displaySamples();

@@ -43,7 +43,7 @@ public:
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
-  void sceneAsked(const QString& scene);
+  void sceneRequested(const QString& scene);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 

@@ -59,9 +59,9 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   column.addWidget(samplesBox_);
   connect(samplesBox_, &SamplesBox::edited, this,
           [this](const QString& what) { emit edited(what, samplesBox_->settings(), fields_.settings()); });
-  connect(samplesBox_, &SamplesBox::generateAsked, this, &NetworkPanel::generateAsked);
-  connect(samplesBox_, &SamplesBox::openAsked, this, &NetworkPanel::openSamplesAsked);
-  connect(samplesBox_, &SamplesBox::saveAsked, this, &NetworkPanel::saveSamplesAsked);
+  connect(samplesBox_, &SamplesBox::generateRequested, this, &NetworkPanel::generateRequested);
+  connect(samplesBox_, &SamplesBox::openRequested, this, &NetworkPanel::openSamplesRequested);
+  connect(samplesBox_, &SamplesBox::saveRequested, this, &NetworkPanel::saveSamplesRequested);
 }
 
 void NetworkPanel::buildTraining(QVBoxLayout& column) {
@@ -80,7 +80,7 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   form->addRow(wrappedLabel(
       "trainsAtOnce", "hint",
       tr("Once there is a network, each change above trains immediately and is kept in the tab Trained networks.")));
-  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
+  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainRequested);
   column.addWidget(box);
 }
 
@@ -224,8 +224,8 @@ void NetworkPanel::buildSweep(QVBoxLayout& column) {
   compare_ = pushButton(tr("Compare all decoders"), "compare");
   form->addRow(compare_);
   column.addWidget(box);
-  connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepAsked);
-  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
+  connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepRequested);
+  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareRequested);
 }
 
 void NetworkPanel::display(const Project& project, int rowWires) {

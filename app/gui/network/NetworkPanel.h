@@ -43,12 +43,12 @@ public:
 signals:
   /// By the user's hand only.
   void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
-  void generateAsked();
-  void openSamplesAsked();
-  void saveSamplesAsked();
-  void trainAsked();
-  void sweepAsked();
-  void compareAsked();
+  void generateRequested();
+  void openSamplesRequested();
+  void saveSamplesRequested();
+  void trainRequested();
+  void sweepRequested();
+  void compareRequested();
 
 private:
   void buildSamples(QVBoxLayout& column);

@@ -68,7 +68,7 @@ SamplesBox::SamplesBox(QWidget* parent)
   form_->addRow(QString(), surrogate_);
   buildFiles();
   connect(kind_, &QComboBox::activated, this, &SamplesBox::readKind);
-  connect(generate_, &QPushButton::clicked, this, &SamplesBox::generateAsked);
+  connect(generate_, &QPushButton::clicked, this, &SamplesBox::generateRequested);
 }
 
 /// The indenter and how it presses.
@@ -142,8 +142,8 @@ void SamplesBox::buildFiles() {
   files->addWidget(open);
   files->addWidget(save_);
   form_->addRow(files);
-  connect(open, &QPushButton::clicked, this, &SamplesBox::openAsked);
-  connect(save_, &QPushButton::clicked, this, &SamplesBox::saveAsked);
+  connect(open, &QPushButton::clicked, this, &SamplesBox::openRequested);
+  connect(save_, &QPushButton::clicked, this, &SamplesBox::saveRequested);
   words_ = textLabel("samplesWords");
   words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   words_->setMinimumHeight(2 * fontMetrics().lineSpacing()); // what is below does not jump

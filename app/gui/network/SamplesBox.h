@@ -30,9 +30,9 @@ public:
 signals:
   /// By the user's hand only.
   void edited(const QString& what);
-  void generateAsked();
-  void openAsked();
-  void saveAsked();
+  void generateRequested();
+  void openRequested();
+  void saveRequested();
 
 private:
   template <class Value> auto of(Value TouchSampling::*member);

@@ -42,7 +42,7 @@ SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(all);
-  connect(best_, &QPushButton::clicked, this, [this] { emit spreadAsked(bestSpread_); });
+  connect(best_, &QPushButton::clicked, this, [this] { emit spreadRequested(bestSpread_); });
 }
 
 void SweepTab::display(const NetworkSession& session, const NetworkSettings& now) {

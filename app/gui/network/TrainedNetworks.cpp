@@ -48,8 +48,8 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   });
   connect(back_, &QPushButton::clicked, this, &TrainedNetworks::ask);
   connect(list_, &DataTable::itemSelectionChanged, this, &TrainedNetworks::displayAway);
-  connect(away_, &QPushButton::clicked, this, [this] { emit takeAwayAsked(marked()); });
-  connect(return_, &QPushButton::clicked, this, &TrainedNetworks::bringBackAsked);
+  connect(away_, &QPushButton::clicked, this, [this] { emit removeRequested(marked()); });
+  connect(return_, &QPushButton::clicked, this, &TrainedNetworks::bringBackRequested);
   connect(name_, &QLineEdit::editingFinished, this, &TrainedNetworks::askName);
   connect(name_, &QLineEdit::returnPressed, list_, [this] { list_->setFocus(); });
   auto* keys = new QShortcut(Qt::Key_F2, list_);
@@ -78,12 +78,12 @@ void TrainedNetworks::displayAway() {
 }
 
 void TrainedNetworks::ask() {
-  if (chosen() >= 0) emit goBackAsked(static_cast<std::size_t>(chosen()));
+  if (chosen() >= 0) emit goBackRequested(static_cast<std::size_t>(chosen()));
 }
 
 void TrainedNetworks::askName() {
   if (chosen() >= 0 && name_->isModified())
-    emit nameAsked(static_cast<std::size_t>(chosen()), name_->text().simplified());
+    emit nameRequested(static_cast<std::size_t>(chosen()), name_->text().simplified());
   name_->setModified(false);
 }
 

@@ -27,10 +27,10 @@ public:
   void display(const NetworkSession& session);
 
 signals:
-  void goBackAsked(std::size_t network);
-  void takeAwayAsked(const std::set<std::size_t>& networks);
-  void bringBackAsked();
-  void nameAsked(std::size_t network, const QString& name);
+  void goBackRequested(std::size_t network);
+  void removeRequested(const std::set<std::size_t>& networks);
+  void bringBackRequested();
+  void nameRequested(std::size_t network, const QString& name);
 
 private:
   void ask();

@@ -89,7 +89,7 @@ void describe(JsonFields& fields, ViewSettings& view) {
   const ViewSettings usual;
   fields.field("scene", view.scene);
   fields.field("quantity", view.quantity, kQuantities);
-  fields.sparse("warp_factor", view.warpFactor, Within{0, 1e6});
+  fields.sparse("warp_factor", view.deformationScale, Within{0, 1e6});
   fields.custom(
       "clip_y_mm", {false, false, false}, [] { return Json(); }, // of older files
       [&](const JsonPlace& place) {
@@ -100,11 +100,11 @@ void describe(JsonFields& fields, ViewSettings& view) {
   range(fields, "color_range", view.colorRange);
   range(fields, "difference_range", view.differenceRange);
   fields.sparse("extremes", view.extremes, false);
-  fields.sparse("less_kept", view.lessKept, false);
+  fields.sparse("less_kept", view.lessReference, false);
   fields.sparse("uniform", view.uniform, false);
   fields.sparse("map_quantity", view.mapQuantity, usual.mapQuantity);
   fields.sparse("map_on_block", view.mapOnBlock, true);
-  fields.sparse("current_way", view.currentWay, false);
+  fields.sparse("current_way", view.currentPaths, false);
   fields.field("ghost", view.ghost);
   fields.field("electrodes", view.electrodes);
   fields.field("arrows", view.arrows);

@@ -149,13 +149,13 @@ bool Workbench::comparable() const {
   return project().view.uniform ? !project().load.indenters.empty() : project().kept.has_value();
 }
 
-std::shared_ptr<const KeptPath> Workbench::keptPath() const {
+std::shared_ptr<const ReferencePath> Workbench::referencePath() const {
   if (!comparable()) return nullptr;
   const bool uniform = project().view.uniform;
   return kept_.pathFor(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
 }
 
-void Workbench::needKept() {
+void Workbench::needReference() {
   if (!comparable() || !touch_.upToDate()) return;
   const bool uniform = project().view.uniform;
   kept_.want(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
@@ -174,28 +174,28 @@ std::optional<TouchResistances> Workbench::resistancesAtEnd() const {
   return field_.of(touch, touch.solution()->reachedLoadFraction);
 }
 
-std::optional<TouchResistances> Workbench::keptResistances() const {
-  const auto kept = keptPath();
+std::optional<TouchResistances> Workbench::referenceResistances() const {
+  const auto kept = referencePath();
   if (!kept) return {};
   if (!kept->touch) return resistancesOf(kept->design, kept->at(touch_.loadFraction()).electrodes);
-  return keptField_.of(*kept->touch, kept->fractionAt(touch_.loadFraction()));
+  return referenceField_.of(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::needResistances() {
   if (touch_.upToDate()) field_.want(touch_.touch(), touch_.loadFraction());
 }
 
-void Workbench::needKeptResistances() {
-  needKept();
-  if (const auto kept = keptPath(); kept && kept->touch)
-    keptField_.want(*kept->touch, kept->fractionAt(touch_.loadFraction()));
+void Workbench::needReferenceResistances() {
+  needReference();
+  if (const auto kept = referencePath(); kept && kept->touch)
+    referenceField_.want(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::apply(const Project& project) {
   project_ = project;
   if (!comparable()) kept_.forget();
   const SensorDesign* other = project.view.uniform ? &project.design : project.kept ? &*project.kept : nullptr;
-  if (!comparable() || other->field() == nullptr) keptField_.leave();
+  if (!comparable() || other->field() == nullptr) referenceField_.leave();
   if (project.design.field() == nullptr) field_.leave();
   touch_.setInputs(project.design, project.load, project.mesh, loadsAfter(project.load, project.path, project.design));
   emit projectChanged();

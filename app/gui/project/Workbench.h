@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/gui/jobs/FieldTouch.h"
-#include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Leaving.h"
 #include "app/gui/project/Project.h"
@@ -67,24 +67,24 @@ public:
   void setPlace(const QString& scene) { place_ = scene; }
 
   [[nodiscard]] TouchSession& touch() { return touch_; }
-  [[nodiscard]] KeptTouch& kept() { return kept_; }
+  [[nodiscard]] ReferenceTouch& kept() { return kept_; }
   /// There is another solution to compare the touch with: of the reference design, or its own under uniform load.
   [[nodiscard]] bool comparable() const;
   /// That solution, for the touch that is shown; null before it is computed and where there is none.
-  [[nodiscard]] std::shared_ptr<const KeptPath> keptPath() const;
+  [[nodiscard]] std::shared_ptr<const ReferencePath> referencePath() const;
   /// A scene shows it: it is computed.
-  void needKept();
+  void needReference();
   /// Under the law of the field: of the touch that is shown, and of the reference design.
   [[nodiscard]] FieldTouch& field() { return field_; }
-  [[nodiscard]] FieldTouch& keptField() { return keptField_; }
+  [[nodiscard]] FieldTouch& referenceField() { return referenceField_; }
   /// By the law of the touch that is shown, at the place of the load path that is shown; empty before they are there.
   [[nodiscard]] std::optional<TouchResistances> resistances() const;
-  [[nodiscard]] std::optional<TouchResistances> keptResistances() const;
+  [[nodiscard]] std::optional<TouchResistances> referenceResistances() const;
   /// At the end of the load path, for scales that hold on all of it; under the field as far as they were computed.
   [[nodiscard]] std::optional<TouchResistances> resistancesAtEnd() const;
   /// A scene shows them: the field is computed where the law needs it.
   void needResistances();
-  void needKeptResistances();
+  void needReferenceResistances();
   [[nodiscard]] QUndoStack& history() { return history_; }
   /// The designs of this project that are not the present one, each once: those before it, the latest first, then those
   /// that were undone.
@@ -112,8 +112,8 @@ private:
   bool entryOpen_ = false;
   QString place_;
   TouchSession touch_;
-  KeptTouch kept_;
-  FieldTouch field_, keptField_;
+  ReferenceTouch kept_;
+  FieldTouch field_, referenceField_;
 };
 
 } // namespace palp

@@ -177,8 +177,9 @@ bool LoadPathAnimation::start(const Settings& settings) {
       all.insert(all.end(), values.begin(), values.end());
     }
     if (!fixed.options.fixedRange) fixed.options.fixedRange = quantityRange(settings.options, all);
-    if (!fixed.options.warpFactor)
-      fixed.options.warpFactor = automaticWarpFactor(touch.design(), path->states.back().fields.displacement_mm);
+    if (!fixed.options.deformationScale)
+      fixed.options.deformationScale =
+          automaticDeformationScale(touch.design(), path->states.back().fields.displacement_mm);
     const double last = path->states.back().fraction;
     const auto drawn = [&](int frame) -> std::optional<Picture> {
       auto order = std::make_shared<Order>();
@@ -234,7 +235,7 @@ Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, cons
                          now.fraction, now.indenters};
   std::optional<LoadPathState> less;
   if (settings.kept) {
-    state.keptDesign = &settings.kept->design;
+    state.referenceDesign = &settings.kept->design;
     state.keptLoad = &settings.kept->load;
     state.kept = &less.emplace(settings.kept->at(now.fraction)).fields;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/scenes/Picture.h"
 #include "app/scenes/block/DeformationScene.h"
 
@@ -21,7 +21,7 @@ class LoadPathAnimation : public QObject {
 public:
   struct Settings {
     DeformationOptions options;
-    std::shared_ptr<const KeptPath> kept; ///< that the colours are less of; null: of none
+    std::shared_ptr<const ReferencePath> kept; ///< that the colours are less of; null: of none
     int frames = 25;
     int width = 1200;
     int height = 800;

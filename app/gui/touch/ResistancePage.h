@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/gui/project/Workbench.h"
-#include "app/gui/touch/CurrentWay.h"
+#include "app/gui/touch/CurrentPathsJob.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
 #include "app/scenes/charts/Heatmap.h"
@@ -53,7 +53,7 @@ private:
   /// The block shows the current paths.
   [[nodiscard]] bool wayShown() const;
   /// Why there is no result of the reference design; empty where there is, or while it is computed.
-  [[nodiscard]] QString keptProblem() const;
+  [[nodiscard]] QString referenceProblem() const;
   /// Of the touch that is shown, by its law; asks for the field where it is not there yet.
   void findResistances();
   /// How those of the field compare with those of Eq. (1).
@@ -63,14 +63,14 @@ private:
 
   Workbench& workbench_;
   DeformationOptions options_;
-  CurrentWay current_;
+  CurrentPathsJob current_;
   std::optional<TouchResistances> resistances_; ///< that are shown
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as drawn last
   LawBar* law_ = nullptr;
   QComboBox* kind_ = nullptr;
   QCheckBox* fixed_ = nullptr;
-  QCheckBox* currentWay_ = nullptr;
+  QCheckBox* currentPaths_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* laws_ = nullptr;
   QLabel* paths_ = nullptr;

@@ -1,7 +1,7 @@
 #include "app/gui/touch/ResultPanel.h"
 
-#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/MatchedLoad.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
 #include "app/gui/widgets/MakeWidgets.h"
@@ -77,8 +77,8 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
   addTo(*lines, {difference_, result_, estimate_, uniform_, probe_});
-  connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformAsked);
-  connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateAsked);
+  connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformRequested);
+  connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateRequested);
 }
 
 void ResultPanel::display(const TouchSession& session) {
@@ -123,13 +123,13 @@ void ResultPanel::display(const TouchSession& session) {
   fitHeight(*result_);
 }
 
-void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
+void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const ReferencePath* kept,
                                     const QString& problem) {
   const bool uniform = project.view.uniform, pressed = !project.load.indenters.empty();
   const bool shown =
-      project.view.lessKept && (uniform ? pressed : project.kept.has_value()) && session.fields() != nullptr;
+      project.view.lessReference && (uniform ? pressed : project.kept.has_value()) && session.fields() != nullptr;
   uniform_->setVisible(pressed);
-  uniform_->setChecked(uniform && project.view.lessKept);
+  uniform_->setChecked(uniform && project.view.lessReference);
   difference_->setVisible(shown);
   if (!shown) return;
   const QString title = uniform ? tr("Difference from uniform load") : tr("Difference from the reference design");
@@ -157,7 +157,7 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
   fitHeight(*difference_);
 }
 
-void ResultPanel::displayProbe(const TouchSession& session, int node, const KeptPath* kept) {
+void ResultPanel::displayProbe(const TouchSession& session, int node, const ReferencePath* kept) {
   if (node < 0) {
     probe_->setText(tr("Click on the block to probe a point."));
     return;

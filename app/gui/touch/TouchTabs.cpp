@@ -190,7 +190,7 @@ void TouchTabs::displayProject(const Project& project) {
   draw();
 }
 
-void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept) {
+void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const ReferencePath> kept) {
   if (meshChanged) plot_.reset();
   kept_ = std::move(kept);
   draw();

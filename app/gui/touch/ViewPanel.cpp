@@ -23,9 +23,9 @@ ViewPanel::ViewPanel(QWidget* parent)
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   buildColors(*form);
-  lessKept_ = checkBox(tr("Difference from reference design"), "lessKept");
-  form->addRow(lessKept_);
-  buildWarp(*form);
+  lessReference_ = checkBox(tr("Difference from reference design"), "lessKept");
+  form->addRow(lessReference_);
+  buildScale(*form);
   buildCut(*form);
   const auto addCheck = [&](const QString& text, const char* name, bool ViewSettings::*shown, const QString& tip) {
     form->addRow(fields_.bind(checkBox(text, name, tip), {}, shown));
@@ -44,8 +44,8 @@ ViewPanel::ViewPanel(QWidget* parent)
   for (QComboBox* list : {colorMap_, cut_}) connect(list, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
   for (QDoubleSpinBox* spin : {warp_, cutAt_, range_[0], range_[1]})
     connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
-  connect(lessKept_, &QCheckBox::toggled, this, &ViewPanel::chooseKept);
-  for (QCheckBox* check : {automaticWarp_, keepRange_}) connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
+  connect(lessReference_, &QCheckBox::toggled, this, &ViewPanel::chooseKept);
+  for (QCheckBox* check : {automaticScale_, keepRange_}) connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
 }
 
 void ViewPanel::buildColors(QFormLayout& form) {
@@ -84,15 +84,15 @@ void ViewPanel::buildColors(QFormLayout& form) {
   form.addRow(QString(), keepRange_);
 }
 
-void ViewPanel::buildWarp(QFormLayout& form) {
+void ViewPanel::buildScale(QFormLayout& form) {
   warp_ = numberBox("warp", {.high = 1e6, .decimals = 1},
                     tr("Factor by which displacements are drawn enlarged; 1 is true size"));
   warp_->setPrefix(tr("x "));
   warp_->setEnabled(false);
   warp_->setMinimumWidth(kNarrow_px);
-  automaticWarp_ = checkBox(tr("Automatic"), "automaticWarp");
-  automaticWarp_->setChecked(true);
-  auto* row = inRow({warp_, automaticWarp_});
+  automaticScale_ = checkBox(tr("Automatic"), "automaticWarp");
+  automaticScale_->setChecked(true);
+  auto* row = inRow({warp_, automaticScale_});
   form.addRow(new QLabel(tr("Deformation scale"))); // above its row: at its left it would narrow all of them
   form.addRow(QString(), row);
 }
@@ -119,13 +119,13 @@ void ViewPanel::chooseQuantity() {
 void ViewPanel::chooseKept() {
   if (displaying_) return;
   fields_.edit({}, [this](ViewSettings& view) { // a quantity and its difference have a range each
-    view.lessKept = lessKept_->isChecked();
-    if (view.lessKept) view.uniform = false;
+    view.lessReference = lessReference_->isChecked();
+    if (view.lessReference) view.uniform = false;
   });
 }
 
 void ViewPanel::read() {
-  warp_->setDisabled(automaticWarp_->isChecked());
+  warp_->setDisabled(automaticScale_->isChecked());
   cutAt_->setEnabled(cut_->currentIndex() > 0);
   for (QDoubleSpinBox* end : range_) end->setEnabled(keepRange_->isChecked());
   if (!displaying_) fields_.edit({}, [this](ViewSettings& view) { readInto(view); });
@@ -146,7 +146,7 @@ void ViewPanel::readInto(ViewSettings& view) const {
     const double low = range_[0]->value(), high = range_[1]->value();
     view.shownRange() = {low, std::max(high, low + 1e-4)};
   }
-  view.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
+  view.deformationScale = automaticScale_->isChecked() ? std::nullopt : std::optional(warp_->value());
   if (const int axis = cut_->currentIndex() - 1; axis < 0) {
     view.cut.reset();
   } else {
@@ -158,7 +158,7 @@ void ViewPanel::readInto(ViewSettings& view) const {
 void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed) {
   displaying_ = true;
   ViewSettings possible = view;
-  possible.lessKept = view.lessKept && (view.uniform ? pressed : somethingKept);
+  possible.lessReference = view.lessReference && (view.uniform ? pressed : somethingKept);
   fields_.display(possible);
   block_mm_ = block_mm;
   const auto& all = allQuantities();
@@ -172,9 +172,9 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   for (std::size_t k = 0; k < kColorMaps.all().size(); ++k)
     if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;
   colorMap_->setCurrentIndex(map);
-  lessKept_->setEnabled(somethingKept);
-  lessKept_->setChecked(view.lessKept && somethingKept && !view.uniform);
-  lessKept_->setToolTip(
+  lessReference_->setEnabled(somethingKept);
+  lessReference_->setChecked(view.lessReference && somethingKept && !view.uniform);
+  lessReference_->setToolTip(
       somethingKept
           ? tr("Colours the block by the difference from the reference design under the same load, point by point")
           : tr("There is no reference design to compare with: Design, Compare, \"Set as reference\""));
@@ -182,8 +182,8 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   keepRange_->setChecked(range.has_value());
   if (range)
     for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*range)[k]);
-  automaticWarp_->setChecked(!view.warpFactor);
-  if (view.warpFactor) showExactly(*warp_, *view.warpFactor);
+  automaticScale_->setChecked(!view.deformationScale);
+  if (view.deformationScale) showExactly(*warp_, *view.deformationScale);
   cut_->setCurrentIndex(view.cut ? view.cut->axis + 1 : 0);
   if (view.cut) {
     cutAt_->setRange(0, block_mm[view.cut->axis]);
@@ -193,10 +193,10 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   displaying_ = false;
 }
 
-void ViewPanel::displayDrawn(double warpFactor, const std::array<double, 2>& range) {
-  if (automaticWarp_->isChecked()) {
+void ViewPanel::displayDrawn(double deformationScale, const std::array<double, 2>& range) {
+  if (automaticScale_->isChecked()) {
     const QSignalBlocker quiet(warp_);
-    warp_->setValue(warpFactor);
+    warp_->setValue(deformationScale);
   }
   if (keepRange_->isChecked()) return;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -21,7 +21,7 @@ public:
   /// Emits nothing.
   void display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed);
   /// The factor and the range of the colours that were drawn, shown while they are automatic.
-  void displayDrawn(double warpFactor, const std::array<double, 2>& range);
+  void displayDrawn(double deformationScale, const std::array<double, 2>& range);
 
 signals:
   /// By the user's hand only.
@@ -29,7 +29,7 @@ signals:
 
 private:
   void buildColors(QFormLayout& form);
-  void buildWarp(QFormLayout& form);
+  void buildScale(QFormLayout& form);
   void buildCut(QFormLayout& form);
   void read();
   void readInto(ViewSettings& view) const;
@@ -42,9 +42,9 @@ private:
   QComboBox* quantity_ = nullptr;
   QComboBox* colorMap_ = nullptr;
   QCheckBox* keepRange_ = nullptr;
-  QCheckBox* lessKept_ = nullptr;
+  QCheckBox* lessReference_ = nullptr;
   std::array<QDoubleSpinBox*, 2> range_{};
-  QCheckBox* automaticWarp_ = nullptr;
+  QCheckBox* automaticScale_ = nullptr;
   QDoubleSpinBox* warp_ = nullptr;
   QComboBox* cut_ = nullptr;
   QDoubleSpinBox* cutAt_ = nullptr;

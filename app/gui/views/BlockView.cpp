@@ -101,8 +101,8 @@ void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   invalidate();
 }
 
-double BlockView::warpFactor() const {
-  return parts_->scene.warpFactor();
+double BlockView::deformationScale() const {
+  return parts_->scene.deformationScale();
 }
 
 std::array<double, 2> BlockView::colorRange() const {

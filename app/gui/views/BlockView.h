@@ -25,7 +25,7 @@ public:
   void setTheme(Theme theme);
   /// Looks along a direction, z up, or y where that is straight down or up.
   void lookAlong(const Eigen::Vector3d& direction);
-  [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] double deformationScale() const;
   [[nodiscard]] std::array<double, 2> colorRange() const;
   [[nodiscard]] std::array<double, 3> cameraPosition() const;
   [[nodiscard]] vtkCamera* camera() const;

@@ -7,7 +7,7 @@
 namespace palp {
 
 /// Resistances under a load as a heatmap: R [ohm], R - R at rest [ohm], or its share of R at rest [%]; that share too
-/// for LessKept.
+/// for LessReference.
 HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKind kind);
 
 /// A sentence in their place: why there are none, empty while they are computed.

@@ -155,16 +155,16 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
 }
 
 /// The time of doubt that holds a time; null: none.
-const StripDoubt* StripChart::doubtAt(double t_s) const {
+const ImplausibleSpan* StripChart::implausibleAt(double t_s) const {
   const auto next = std::lower_bound(spec_.doubts.begin(), spec_.doubts.end(), t_s,
-                                     [](const StripDoubt& doubt, double at_s) { return doubt.to_s < at_s; });
+                                     [](const ImplausibleSpan& doubt, double at_s) { return doubt.to_s < at_s; });
   return next != spec_.doubts.end() && next->from_s <= t_s ? &*next : nullptr;
 }
 
-void StripChart::paintDoubts(QPainter& painter, const QRectF& plot) const {
+void StripChart::paintImplausible(QPainter& painter, const QRectF& plot) const {
   QColor hatch = ink(palp::palette(theme_).text);
   hatch.setAlphaF(kHatch);
-  for (const StripDoubt& doubt : spec_.doubts)
+  for (const ImplausibleSpan& doubt : spec_.doubts)
     painter.fillRect(
         QRectF(QPointF(xOf(plot, doubt.from_s), plot.top()), QPointF(xOf(plot, doubt.to_s), plot.bottom())),
         QBrush(hatch, Qt::BDiagPattern));
@@ -177,7 +177,7 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   tint.setAlphaF(0.15F);
   for (const auto& [from_s, to_s] : spec_.spans)
     painter.fillRect(QRectF(QPointF(xOf(plot, from_s), plot.top()), QPointF(xOf(plot, to_s), plot.bottom())), tint);
-  paintDoubts(painter, plot);
+  paintImplausible(painter, plot);
   painter.setRenderHint(QPainter::Antialiasing);
   // Lines, and no polyline: its stroke is one path, and a frame of a noisy signal took Qt's painter seconds to fill it.
   QList<QLineF> lines, doubted;
@@ -198,7 +198,7 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
         column = -1;
         continue;
       }
-      inDoubt = doubtAt(series.t_s[k]) != nullptr;
+      inDoubt = implausibleAt(series.t_s[k]) != nullptr;
       const double y = std::clamp(yOf(plot, series.y[k]), plot.top() - kBeyond * plot.height(),
                                   plot.bottom() + kBeyond * plot.height());
       if (std::floor(x) == column) {
@@ -335,7 +335,7 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
       text += QString::fromUtf8(" \u00b1 %1").arg(series.deviation[place], 0, 'g', 2);
     lines.push_back({series.name, std::isfinite(value) ? text + unit() : text, series.color});
   }
-  if (const StripDoubt* doubt = doubtAt(t_s)) lines.push_back({tr("implausible"), doubt->why, {}});
+  if (const ImplausibleSpan* doubt = implausibleAt(t_s)) lines.push_back({tr("implausible"), doubt->why, {}});
   for (const auto& [mark_s, text] : spec_.marks)
     if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) lines.push_back({tr("mark"), text, {}});
   return lines;

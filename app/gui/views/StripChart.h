@@ -20,7 +20,7 @@ struct StripSeries {
 };
 
 /// A time in which the values can hardly be true: the curves are grey there, on a hatched ground.
-struct StripDoubt {
+struct ImplausibleSpan {
   double from_s = 0, to_s = 0;
   QString why; ///< at its end
 };
@@ -35,7 +35,7 @@ struct StripSpec {
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
   std::vector<std::array<double, 2>> spans;      ///< tinted times: from, to
-  std::vector<StripDoubt> doubts;                ///< in order
+  std::vector<ImplausibleSpan> doubts;           ///< in order
   std::vector<double> limits;                    ///< drawn across
   QString empty;                                 ///< shown where there is no curve
 };
@@ -101,7 +101,7 @@ private:
   void savePdf();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
-  void paintDoubts(QPainter& painter, const QRectF& plot) const;
+  void paintImplausible(QPainter& painter, const QRectF& plot) const;
   void paintMarks(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
@@ -116,7 +116,7 @@ private:
   [[nodiscard]] double legendWidth(std::size_t first, std::size_t count) const;
   /// The title gets a line of its own where it does not fit next to the legend's first line.
   [[nodiscard]] int linesAbove(double room_px) const;
-  [[nodiscard]] const StripDoubt* doubtAt(double t_s) const;
+  [[nodiscard]] const ImplausibleSpan* implausibleAt(double t_s) const;
   [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;

@@ -213,7 +213,7 @@ QString StripChart::asCsv() const {
           deviations += QString::number(series.deviation[next[k]], 'g', 4);
       }
     }
-    const QString doubted = spec_.doubts.empty() ? QString() : doubtAt(t_s) != nullptr ? ",1" : ",0";
+    const QString doubted = spec_.doubts.empty() ? QString() : implausibleAt(t_s) != nullptr ? ",1" : ",0";
     text += QString::number(t_s - zero_s_, 'f', 6) + values + deviations + doubted + "\n";
   }
   return text;

@@ -65,6 +65,6 @@ private:
 };
 
 /// What all views of a window that need not draw now hold for it goes back to the system.
-void giveBackViews(const QWidget& window);
+void releaseViews(const QWidget& window);
 
 } // namespace palp

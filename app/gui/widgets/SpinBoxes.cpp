@@ -42,7 +42,7 @@ std::optional<double> typedNumber(const QString& words) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-void sayNotApplied(QWidget& at, const QString& sentence) {
+void showNotApplied(QWidget& at, const QString& sentence) {
   if (auto* messages = at.window()->findChild<QObject*>("messages")) // a dialog has none
     QMetaObject::invokeMethod(messages, "say", Q_ARG(QString, sentence));
   // The focus that is on its way to another widget would hide a box that is shown now.
@@ -84,8 +84,8 @@ template <class Box> void TypedBox<Box>::fixup(QString& text) const {
   const QString kept =
       special ? this->specialValueText() : this->prefix() + this->textFromValue(value) + this->suffix();
   if (!typed.isEmpty()) // an empty box is not a mistake
-    sayNotApplied(const_cast<TypedBox&>(*this),
-                  QObject::tr("Not applied: %1. The value is still %2").arg(whyNot(typed), kept.trimmed()));
+    showNotApplied(const_cast<TypedBox&>(*this),
+                   QObject::tr("Not applied: %1. The value is still %2").arg(whyNot(typed), kept.trimmed()));
   text = kept;
 }
 

@@ -13,7 +13,7 @@ namespace palp {
 std::optional<double> typedNumber(const QString& words);
 
 /// Reports why what was typed at a widget is not applied: in a tooltip at the widget and in the messages of its window.
-void sayNotApplied(QWidget& at, const QString& sentence);
+void showNotApplied(QWidget& at, const QString& sentence);
 
 /// A box of numbers that never drops a key: what is typed or pasted is applied as it is, or refused with a sentence
 /// and the value from before the typing comes back. QDoubleSpinBox and QSpinBox alone leave out the keys that they do

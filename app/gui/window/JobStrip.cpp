@@ -25,7 +25,7 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   words_->setObjectName("jobWords");
   words_->setAutoRaise(true);
   words_->setToolTip(tr("Shows the scene of this computation"));
-  connect(words_, &QToolButton::clicked, this, &JobStrip::sceneAsked);
+  connect(words_, &QToolButton::clicked, this, &JobStrip::sceneRequested);
   bar_ = new QProgressBar;
   bar_->setFixedWidth(140);
   bar_->setMaximumHeight(14);

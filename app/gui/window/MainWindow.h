@@ -77,7 +77,7 @@ private:
   /// What runs and would end, a sentence each.
   [[nodiscard]] QStringList losses(const Leaving& leaving) const;
   /// What only scenes need that are not seen.
-  void giveBackMemory();
+  void releaseMemory();
   void sceneChosen(int index);
   void restoreLayout();
 

@@ -62,7 +62,7 @@ QString cutProblem(Workbench& workbench, const DeformationPage& page) {
     return QObject::tr("There is no solution to export yet; wait until it is computed on the Deformation scene.");
   if (!page.blockOptions().cut)
     return QObject::tr("There is no cut: choose one across x, y or z in the panel of the Deformation scene.");
-  if (page.blockOptions().lessKept && !page.shownLess())
+  if (page.blockOptions().lessReference && !page.shownLess())
     return QObject::tr("The difference from the reference design is not available yet; wait until it is computed.");
   return {};
 }
@@ -81,7 +81,8 @@ ExportJob::Making cutMaking(Workbench& workbench, const DeformationPage& page) {
     const ResultSource source{shown.design(), shown.load(), fraction, shown.meshOptions(), stale};
     return (sourceLines(source) + "# cut across " + "xyz"[options.cut->axis] + " at " +
             QString::number(options.cut->at_mm, 'g', 12) + " mm of the block as it is drawn, displacements times " +
-            QString::number(options.warpFactor.value_or(automaticWarpFactor(shown.design(), fields.displacement_mm))) +
+            QString::number(
+                options.deformationScale.value_or(automaticDeformationScale(shown.design(), fields.displacement_mm))) +
             "\n")
                .toStdString() +
            cutCsv(state, options, stop);
@@ -136,8 +137,8 @@ void Menus::buildFile() {
 /// Of what is shown now; with the reference design where that is shown too.
 ExportJob::Making Menus::vtuMaking() const {
   const TouchSession& touch = workbench_.touch();
-  std::shared_ptr<const KeptPath> kept;
-  if (workbench_.project().view.lessKept) kept = workbench_.keptPath();
+  std::shared_ptr<const ReferencePath> kept;
+  if (workbench_.project().view.lessReference) kept = workbench_.referencePath();
   return [shown = touch.touch(), fields = *touch.fields(), kept,
           fraction = touch.loadFraction()](const std::stop_token& stop) {
     std::vector<NodalArray> arrays = nodalArrays(fields);
@@ -283,7 +284,7 @@ void Menus::buildEdit() {
     workbench_.touch().resume();
     workbench_.kept().resume();
     workbench_.field().retry();
-    workbench_.keptField().retry();
+    workbench_.referenceField().retry();
   });
   auto* dock = new QDockWidget(tr("History"), &window_);
   dock->setObjectName("history");

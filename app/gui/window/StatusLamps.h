@@ -39,7 +39,7 @@ public:
 
 signals:
   void message(const QString& sentence);
-  void sceneAsked(const QString& name);
+  void sceneRequested(const QString& name);
 
 private:
   void displayBoards();

@@ -40,7 +40,8 @@ struct CutPlane {
 /// What is drawn, and how.
 struct DeformationOptions {
   Quantity quantity = Quantity::Displacement;
-  std::optional<double> warpFactor; ///< of the drawn displacements; none: automatic, 1, 2 or 5 times a power of ten
+  std::optional<double>
+      deformationScale; ///< of the drawn displacements; none: automatic, 1, 2 or 5 times a power of ten
   bool undeformedGhost = true;
   bool electrodes = true;
   bool forceArrows = true;
@@ -49,7 +50,7 @@ struct DeformationOptions {
   double opacity = 0.82; ///< of the coloured surface, while the electrodes show through it
   std::optional<CutPlane> cut;
   bool cutGrip = false;                                  ///< draws where the cut is taken by the mouse
-  bool lessKept = false;                                 ///< colours by the difference to another answer
+  bool lessReference = false;                            ///< colours by the difference to another answer
   bool lessUniform = false;                              ///< that is the touch's own design, its forces uniform
   bool extremes = false;                                 ///< marks the largest and the smallest value
   std::optional<ColorMap> colorMap;                      ///< none: as the quantity asks for
@@ -73,7 +74,7 @@ struct DeformationState {
   double loadFraction = 1;
   std::vector<IndenterState> indenters{}; ///< what the load's indenters do; empty at rest
   // For the difference from a reference design; null until that is available.
-  const SensorDesign* keptDesign = nullptr;
+  const SensorDesign* referenceDesign = nullptr;
   const LoadCase* keptLoad = nullptr;
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
   /// The current paths in this state: drawn in a block without colours.
@@ -87,7 +88,7 @@ std::array<double, 2> quantityRange(const DeformationOptions& options, const std
 
 /// The largest 1, 2 or 5 times a power of ten that keeps the drawn displacements under a fifth of the block's thinnest
 /// side; at least 1.
-double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
+double automaticDeformationScale(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
 
 /// From the front, above and the left.
 const Eigen::Vector3d kFirstLook(0.45, 1.0, -0.75);
@@ -112,7 +113,7 @@ public:
 
   /// Of words and legend alone, from now on; show() sets it to the scale of its options.
   void setTextScale(double scale);
-  [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] double deformationScale() const;
   [[nodiscard]] std::array<double, 2> colorRange() const; ///< as drawn last
   /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;

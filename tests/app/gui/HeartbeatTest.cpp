@@ -144,7 +144,7 @@ TEST_F(Heartbeat, BeatsUnderTheConductionField) {
   expectFree(
       "the current is followed", [&] { QTest::mouseClick(&way, Qt::LeftButton, {}, QPoint(8, way.height() / 2)); },
       complete);
-  ASSERT_TRUE(workbench.project().view.currentWay);
+  ASSERT_TRUE(workbench.project().view.currentPaths);
   expectFree(
       "the law is switched", [&] { choose("lawBar", Qt::Key_Up); }, complete);
   expectFree(

@@ -87,7 +87,7 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   connect(onBlock_, &QCheckBox::toggled, this, [this](bool on) {
     workbench_.edit(tr("Draw the map on the block"), [&](Project& next) { next.view.mapOnBlock = on; });
   });
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &DesignMap::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {

@@ -116,9 +116,9 @@ void saveKept(const fs::path& folder, const NetworkResults& results) {
 }
 
 /// Only what the user removed; any other file may be the only copy.
-void removeTakenAway(const fs::path& folder, const NetworkResults& results) {
+void deleteRemoved(const fs::path& folder, const NetworkResults& results) {
   std::error_code ignored;
-  for (const QDateTime& made : results.takenAway) {
+  for (const QDateTime& made : results.removed) {
     const auto is = [&](const auto& fit) { return fit->made == made; };
     if (std::any_of(results.kept.begin(), results.kept.end(), is)) continue; // opened again
     for (const char* end : {kSettings, kDecoder, kName}) fs::remove(folder / (stemOf(made) + end), ignored);
@@ -252,7 +252,7 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
   writing.commit();
   if (!results.fit) fs::remove(folder / kNetwork, failed);
   if (!sweeps) fs::remove(folder / kSweeps, failed);
-  removeTakenAway(folder / kKept, results);
+  deleteRemoved(folder / kKept, results);
   return said;
 }
 

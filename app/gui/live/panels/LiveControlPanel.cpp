@@ -87,12 +87,12 @@ QWidget* LiveControlPanel::buildNetwork() {
   column->addWidget(networkProblem_); // below: no button moves when it comes
   connect(open, &QPushButton::clicked, this, &LiveControlPanel::chooseNetwork);
   connect(shipped_, &QPushButton::clicked, this, [this] {
-    if (fields_.settings().network.empty() && !fields_.settings().calibrated) return emit shippedAsked();
+    if (fields_.settings().network.empty() && !fields_.settings().calibrated) return emit shippedRequested();
     useNetwork({});
   });
-  connect(back_, &QPushButton::clicked, this, &LiveControlPanel::backAsked);
-  connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareAsked);
-  connect(clearTare_, &QPushButton::clicked, this, &LiveControlPanel::clearTareAsked);
+  connect(back_, &QPushButton::clicked, this, &LiveControlPanel::backRequested);
+  connect(tare_, &QPushButton::clicked, this, &LiveControlPanel::tareRequested);
+  connect(clearTare_, &QPushButton::clicked, this, &LiveControlPanel::clearTareRequested);
   return box;
 }
 
@@ -133,10 +133,10 @@ QWidget* LiveControlPanel::buildRecording() {
     lookForFile();
   });
   connect(record_, &QPushButton::clicked, this, &LiveControlPanel::record);
-  connect(pause_, &QPushButton::clicked, this, [this] { emit pauseAsked(pause_->isChecked()); });
+  connect(pause_, &QPushButton::clicked, this, [this] { emit pauseRequested(pause_->isChecked()); });
   connect(mark_, &QLineEdit::returnPressed, mark, &QPushButton::click);
   connect(mark, &QPushButton::clicked, this, [this] {
-    emit markAsked(markText());
+    emit markRequested(markText());
     mark_->clear();
     mark_->setPlaceholderText(tr("mark %1").arg(++marks_ + 1));
   });
@@ -145,7 +145,7 @@ QWidget* LiveControlPanel::buildRecording() {
         fields_.settings().source == LiveSourceKind::Recording ? fields_.settings().recording : "live";
     const QString proposal = QString::fromStdString(name.replace_extension(".csv").string());
     const QString file = askFileToSave(this, tr("Export CSV"), proposal, tr("Tables (*.csv)"));
-    if (!file.isEmpty()) emit exportAsked(file);
+    if (!file.isEmpty()) emit exportRequested(file);
   });
   return box;
 }
@@ -253,7 +253,7 @@ QString LiveControlPanel::markText() const {
 
 void LiveControlPanel::record() {
   const QString file = file_->text();
-  emit recordAsked(file, file == std::exchange(replaceable_, QString()));
+  emit recordRequested(file, file == std::exchange(replaceable_, QString()));
 }
 
 void LiveControlPanel::displayNetworkProblem(const QString& sentence) {

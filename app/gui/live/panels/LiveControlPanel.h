@@ -44,18 +44,18 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void tareAsked();
-  void clearTareAsked();
+  void tareRequested();
+  void clearTareRequested();
   /// The network that ships with Palp is wanted in place of one that was refined from it.
-  void shippedAsked();
-  void pauseAsked(bool paused);
-  void markAsked(const QString& text);
+  void shippedRequested();
+  void pauseRequested(bool paused);
+  void markRequested(const QString& text);
   /// The network before is wanted back.
-  void backAsked();
+  void backRequested();
   /// A recording is to begin, or the one that runs is to end. `replace`: the user has confirmed that a file of this
   /// name may go.
-  void recordAsked(const QString& file, bool replace);
-  void exportAsked(const QString& file);
+  void recordRequested(const QString& file, bool replace);
+  void exportRequested(const QString& file);
 
 private:
   QWidget* buildNetwork();

@@ -56,12 +56,12 @@ QWidget* LiveSourcePanel::buildDevices() {
                         tr("Shows another board next to this one, with its own settings, tare and recording; without a "
                            "second board it is a simulated one"));
   column->addWidget(another_);
-  connect(another_, &QPushButton::clicked, this, &LiveSourcePanel::anotherAsked);
+  connect(another_, &QPushButton::clicked, this, &LiveSourcePanel::anotherRequested);
   connect(devices_, &QListWidget::itemClicked, this,
           [this](QListWidgetItem* item) { chooseDevice(devices_->row(item)); });
   connect(devices_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { chooseDevice(devices_->row(item)); });
-  connect(again_, &QPushButton::clicked, this, &LiveSourcePanel::openAgainAsked);
+  connect(again_, &QPushButton::clicked, this, &LiveSourcePanel::openAgainRequested);
   connect(open, &QPushButton::clicked, this, &LiveSourcePanel::chooseRecording);
   return box;
 }

@@ -38,8 +38,8 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void openAgainAsked();
-  void anotherAsked();
+  void openAgainRequested();
+  void anotherRequested();
 
 private:
   QWidget* buildDevices();

@@ -66,7 +66,7 @@ SimulationPanel::SimulationPanel(QWidget* parent)
   buildDisturbances(*form);
   buildFaults(*form);
   column->addWidget(box);
-  connect(plug_, &QPushButton::clicked, this, [this] { emit plugAsked(plug_->text() != tr("Unplug")); });
+  connect(plug_, &QPushButton::clicked, this, [this] { emit plugRequested(plug_->text() != tr("Unplug")); });
 }
 
 void SimulationPanel::buildDesign(QFormLayout& form) {
@@ -76,7 +76,7 @@ void SimulationPanel::buildDesign(QFormLayout& form) {
                             "selected; this takes a while, Esc cancels"));
   form.addRow(design_);
   form.addRow(simulate_);
-  connect(simulate_, &QPushButton::clicked, this, &SimulationPanel::designAsked);
+  connect(simulate_, &QPushButton::clicked, this, &SimulationPanel::designRequested);
 }
 
 /// A touch by hand, instead of the touch that moves over the areas automatically.
@@ -89,7 +89,7 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
       tr("Change the moving indenter"), of(&SimulationSettings::moving));
   form.addRow(moving);
   connect(moving, &QCheckBox::toggled, this, [this](bool on) {
-    if (on) emit designAsked();
+    if (on) emit designRequested();
   });
   form.addRow(fields_.bind(
       checkBox(tr("Touch by hand"), "touchHeld",

@@ -35,9 +35,9 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void plugAsked(bool in);
+  void plugRequested(bool in);
   /// The project's design, or an indenter that moves over it, is to be simulated.
-  void designAsked();
+  void designRequested();
 
 private:
   void buildDesign(QFormLayout& form);

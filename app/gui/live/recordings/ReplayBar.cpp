@@ -80,7 +80,7 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   auto* lower = inRow({new QLabel(tr("Speed")), speed_, loop_, from_, new QLabel(tr("To")), to_, {marks_, 1}, board});
   column->addLayout(upper);
   column->addLayout(lower);
-  connect(board, &QPushButton::clicked, this, &ReplayBar::boardAsked);
+  connect(board, &QPushButton::clicked, this, &ReplayBar::boardRequested);
   hide();
 }
 
@@ -134,13 +134,13 @@ void ReplayBar::buildLoop() {
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
   connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
     const auto value = typedNumber(text);
-    if (value && *value >= 0 && *value <= kMostSpeed) emit speedAsked(*value);
+    if (value && *value >= 0 && *value <= kMostSpeed) emit speedRequested(*value);
   });
   connect(speed_->lineEdit(), &QLineEdit::editingFinished, this, [this] {
     const auto value = typedNumber(speed_->currentText());
     if (value && *value >= 0 && *value <= kMostSpeed) return;
-    sayNotApplied(*speed_,
-                  tr("Not applied: \"%1\" is not a number from 0 to %2").arg(speed_->currentText()).arg(kMostSpeed));
+    showNotApplied(*speed_,
+                   tr("Not applied: \"%1\" is not a number from 0 to %2").arg(speed_->currentText()).arg(kMostSpeed));
     showSpeed();
   });
   connect(loop_, &QCheckBox::toggled, this, &ReplayBar::loop);

@@ -164,7 +164,7 @@ void AreaPlan::mousePressEvent(QMouseEvent* event) {
   const auto load = at(event->position());
   if (!load || event->button() != Qt::LeftButton) return;
   if (event->modifiers().testFlag(Qt::ShiftModifier))
-    emit takenAway(*load);
+    emit removed(*load);
   else
     emit chosen(*load);
 }
@@ -194,7 +194,7 @@ void AreaPlan::keyPressEvent(QKeyEvent* event) {
     return;
   case Qt::Key_Delete:
   case Qt::Key_Backspace:
-    emit takenAway(chosen_);
+    emit removed(chosen_);
     return;
   default:
     QWidget::keyPressEvent(event);

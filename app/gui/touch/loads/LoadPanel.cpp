@@ -40,7 +40,7 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   plan_->setToolTip(tr("Load areas and discs seen from above; click to select, Shift-click to remove the load"));
   column->addWidget(plan_);
   connect(plan_, &AreaPlan::chosen, this, &LoadPanel::choose);
-  connect(plan_, &AreaPlan::takenAway, this, &LoadPanel::takeAway);
+  connect(plan_, &AreaPlan::removed, this, &LoadPanel::takeAway);
   buildChoice();
   buildForces();
   buildDisc();
