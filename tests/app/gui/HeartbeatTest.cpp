@@ -169,7 +169,7 @@ TEST_F(Heartbeat, BeatsWhileReporting) {
   find<QLineEdit>("reportFolder").setText(folder.path());
   auto& run = find<QPushButton>("runReport");
   auto& kinds = find<QComboBox>("reportKind");
-  kinds.setCurrentIndex(kinds.findText("networks"));
+  kinds.setCurrentIndex(kinds.findText("Networks"));
   ASSERT_EQ(kinds.currentText(), "networks");
   expectFree(
       "reporting", [&] { click("runReport"); }, [waited = 0]() mutable { return ++waited > 100; });
