@@ -29,7 +29,8 @@ QString touchesChanged() {
 /// A member of the touches; of those that were set last while forces on areas are sampled.
 template <class Value> auto SamplesBox::of(Value TouchSampling::*member) {
   return [this, member](SampleSettings& samples) -> Value& {
-    return (samples.touches ? *samples.touches : touches_).*member;
+    TouchSampling& touches = samples.touches ? *samples.touches : touches_;
+    return touches.*member;
   };
 }
 

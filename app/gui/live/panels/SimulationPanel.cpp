@@ -130,7 +130,7 @@ void SimulationPanel::buildTouch(QFormLayout& form) {
 /// How the readings of a working board differ from those of a perfect one.
 void SimulationPanel::buildDisturbances(QFormLayout& form) {
   auto* noise = new RatioBox(1e6, "ppm");
-  noise->setObjectName("noise");
+  noise->setObjectName("simulatedNoise");
   noise->setRange(0, 1e6);
   noise->setDecimals(3);
   noise->setKeyboardTracking(false);
