@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -184,6 +185,7 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
                                                         const std::stop_token& stop, std::size_t firstNumber,
                                                         const TakeState& take) {
   State& s = *state_;
+  assert((s.numbers.empty() || s.numbers.size() == loads.size()) && "one number for each load");
   s.firstNumber = firstNumber;
   s.failedLoads.clear();
   s.requireLoads(loads);
@@ -223,6 +225,8 @@ std::vector<ElectrodeDisplacements> BatchSolver::answer(std::span<const LoadCase
 }
 
 bool BatchSolver::fitSurrogates(std::span<const int> areas, const std::stop_token& stop) {
+  assert(std::all_of(areas.begin(), areas.end(),
+                     [&](int area) { return area >= 0 && area < state_->problem.design().areas.count(); }));
   if (!state_->prepare(stop)) return false;
   return state_->fitSurrogates(areas, stop);
 }

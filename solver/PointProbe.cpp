@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -125,6 +126,7 @@ PointProbe::PointProbe(const Mesh& mesh, const Eigen::Matrix3Xd& points_mm)
 }
 
 Eigen::Matrix3Xd PointProbe::displacements_mm(const LoadIncrement& state) const {
+  assert(elements_.size() == 0 || state.displacements_mm.cols() > elements_.maxCoeff());
   Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(hosts_.size()));
   for (std::size_t i = 0; i < hosts_.size(); ++i) {
     const Host& host = hosts_[i].front();
@@ -136,6 +138,7 @@ Eigen::Matrix3Xd PointProbe::displacements_mm(const LoadIncrement& state) const 
 }
 
 Eigen::VectorXd PointProbe::pressures_MPa(const LoadIncrement& state) const {
+  assert(state.elementUnknowns.cols() == elements_.cols() && "unknowns of each element");
   Eigen::VectorXd p = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(hosts_.size()));
   for (std::size_t i = 0; i < hosts_.size(); ++i) {
     for (const Host& host : hosts_[i])

@@ -6,7 +6,7 @@
 
 namespace palp {
 
-void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session, const std::string& which) {
+void printMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session, const std::string& which) {
   std::string words = costInWords(meshCost(design, options));
   if (words.empty()) return;
   words = which + words;

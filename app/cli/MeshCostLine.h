@@ -9,7 +9,7 @@ namespace palp {
 
 /// Where a load on that mesh takes long or much memory, prints this on standard error before it is made, and among the
 /// warnings. `which` comes before the sentence, as "design 3: ".
-void sayMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session,
-                 const std::string& which = {});
+void printMeshCost(const SensorDesign& design, const MeshOptions& options, Session& session,
+                   const std::string& which = {});
 
 } // namespace palp

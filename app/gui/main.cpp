@@ -84,7 +84,7 @@ Wish parse(const QApplication& application) {
           parser.isSet(costs), meshOf(parser.value(size), parser.value(mapped))};
 }
 
-/// Other files of ours are opened by the window. What cannot be read counts, so that its reader says why.
+/// Other files of ours are opened by the window. What cannot be read counts, so that its reader reports why.
 bool holdsAProject(const QString& file) {
   const QFileInfo info(file);
   if (!info.isFile() || !info.isReadable()) return true;
@@ -139,14 +139,14 @@ int run(palp::Application& application) {
   palp::Autosave autosave(workbench, network, window, root);
   QObject::connect(&autosave, &palp::Autosave::failed, &window, &palp::MainWindow::showMessage);
   QTimer::singleShot(0, &window, [&window, &autosave, &wish, root, readable] {
-    // Other files of ours open where they belong; of those that are none the window says so and stays.
+    // Other files of Palp open where they belong; the window reports any other file and stays.
     if (!wish.file.isEmpty() && !readable) window.document().open(wish.file);
     palp::offerRecovery(window, autosave, root);
   });
   return QApplication::exec();
 }
 
-/// Without a display there are still pictures, costs and the help; false: a window was asked for.
+/// Without a display there are still pictures, costs and the help; false: a window was requested.
 bool canStart(int argc, char** argv) {
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
     if (std::getenv(name) != nullptr) return true;
@@ -161,7 +161,7 @@ bool canStart(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused in words, as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN); // a file above the limit is refused with a message, as a full disk is
   if (!canStart(argc, argv)) {
     std::cerr << "palp-studio: no display (DISPLAY and WAYLAND_DISPLAY are not set); use --snapshot FILE to write a "
                  "picture without one\n";

@@ -46,7 +46,7 @@ std::span<const Color> stops(ColorMap map) {
   return kViridis;
 }
 
-/// Where in the map a value stands, 0 to 1.
+/// Position of a value in the map, 0 to 1.
 double shareOf(double value, const ColorScale& scale) {
   const double way = std::clamp(scale.share(value), 0.0, 1.0);
   if (scale.map != ColorMap::Diverging) return way;

@@ -31,7 +31,7 @@ struct ColorScale {
   Color ground{1, 1, 1};
   bool logarithmic = false; ///< equal factors look equally large; of values above 0
 
-  /// Where a value stands between low and high, 0 to 1, and the value that stands there.
+  /// Position of a value between low and high, 0 to 1, and its inverse.
   [[nodiscard]] double share(double value) const;
   [[nodiscard]] double at(double share) const;
   [[nodiscard]] Color color(double value) const;

@@ -19,9 +19,9 @@ namespace {
 std::string quantityHead(const DeformationOptions& options) {
   const std::string unit = quantityUnit(options.quantity);
   return "\"" + quantityName(options.quantity) +
-         (!options.lessKept     ? ""
-          : options.lessUniform ? ", minus uniform load"
-                                : ", minus reference design") +
+         (!options.lessReference ? ""
+          : options.lessUniform  ? ", minus uniform load"
+                                 : ", minus reference design") +
          (unit.empty() ? "" : " [" + unit + "]") + "\"";
 }
 
@@ -29,13 +29,13 @@ std::string quantityHead(const DeformationOptions& options) {
 
 std::string cutCsv(const DeformationState& state, const DeformationOptions& options, const std::stop_token& stop) {
   if (!options.cut || state.fields == nullptr || state.mesh == nullptr) return {};
-  const bool less = options.lessKept && state.kept != nullptr;
-  if (options.lessKept && !less) return {};
+  const bool less = options.lessReference && state.kept != nullptr;
+  if (options.lessReference && !less) return {};
   const std::vector<double> values = less ? quantityValues(options.quantity, *state.fields, *state.kept)
                                           : quantityValues(options.quantity, *state.fields);
   if (values.empty()) return {};
   const Eigen::Matrix3Xd& u_mm = state.fields->displacement_mm;
-  const double warp = options.warpFactor.value_or(automaticWarpFactor(*state.design, u_mm));
+  const double warp = options.deformationScale.value_or(automaticDeformationScale(*state.design, u_mm));
   vtkNew<vtkUnstructuredGrid> grid;
   fillGrid(*grid, *state.mesh, state.mesh->nodes_mm + warp * u_mm);
   addNodalArray(*grid, "rest", state.mesh->nodes_mm);

@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kBits = 5; ///< of a channel, by which colours are told apart
+constexpr int kBits = 5; ///< of a channel, in which colours differ
 constexpr std::size_t kBins = std::size_t{1} << (3 * kBits);
 constexpr std::size_t kColors = 256;
 constexpr int kLongest_px = 65535; ///< that the format can say

@@ -11,7 +11,7 @@
 namespace palp {
 
 /// Pictures one after the other as an animated GIF that begins again at its end. All have one palette of 256 colours,
-/// so that what stands still does not flicker.
+/// so that parts at rest do not flicker.
 class GifFilm {
 public:
   /// The palette fits these pictures of the film best (median cut, Heckbert, SIGGRAPH 1982); all its pictures have the
@@ -21,9 +21,9 @@ public:
   GifFilm(const GifFilm&) = delete;
   GifFilm& operator=(const GifFilm&) = delete;
 
-  /// The next picture, shown for so many hundredths of a second. Throws Error.
+  /// Adds a picture, shown for this time [0.01 s]. Throws Error.
   void add(const Picture& picture, int hundredths);
-  /// The whole file. Throws Error.
+  /// Returns the complete file. Throws Error.
   [[nodiscard]] std::string finish();
 
 private:

@@ -13,7 +13,7 @@ inline constexpr NamedEnum kThemes("theme", std::array{std::pair{Theme::Light, "
 
 using Color = std::array<double, 3>; ///< red, green, blue in 0..1
 
-/// The colours of a theme that stand for no number.
+/// The colours of a theme that represent no value.
 struct Palette {
   Color ground;    ///< background
   Color text;      ///< axes, titles, legends

@@ -22,7 +22,7 @@ Picture pictureOfBgra(std::span<const std::uint8_t> bgra, int width, int height)
 /// Throws Error unless a picture of this size can be drawn: 1 to 16384 pixels each way.
 void requireDrawable(int width, int height);
 
-/// Writes the picture as PNG, beside the path and then renamed. Throws Error where the file cannot be written.
+/// Writes the picture as PNG to a temporary file and renames it. Throws Error where the file cannot be written.
 void writePng(const Picture& picture, const std::filesystem::path& path);
 
 } // namespace palp

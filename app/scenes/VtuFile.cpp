@@ -25,7 +25,7 @@ std::vector<NodalArray> nodalArrays(const NodalFields& fields) {
 
 namespace {
 
-/// VTK asks for nothing, it reports: the writer is told to end at the next report.
+/// The writer is stopped at VTK's next report of progress.
 void endWhereAsked(vtkObject* writer, unsigned long, void* stop, void*) {
   if (static_cast<const std::stop_token*>(stop)->stop_requested()) static_cast<vtkAlgorithm*>(writer)->AbortExecuteOn();
 }
@@ -42,7 +42,7 @@ std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, con
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   vtkNew<vtkCallbackCommand> reported;
   reported->SetCallback(endWhereAsked);
-  reported->SetClientData(const_cast<std::stop_token*>(&stop)); // VTK knows no const; it is only read
+  reported->SetClientData(const_cast<std::stop_token*>(&stop)); // VTK has no const; it is only read
   writer->AddObserver(vtkCommand::ProgressEvent, reported);
   writer->SetInputData(grid);
   writer->SetDataModeToBinary();

@@ -23,7 +23,7 @@ std::vector<NodalArray> nodalArrays(const NodalFields& fields);
 /// The mesh at rest and what is known at its nodes as the text of a VTU file. Throws Cancelled where it is stopped.
 std::string vtuText(const Mesh& mesh, const std::vector<NodalArray>& arrays, const std::stop_token& stop = {});
 
-/// Writes the mesh at rest and what is known at its nodes as VTU (ParaView, meshio), beside the path and then renamed.
+/// Writes the mesh at rest and its nodal values as VTU (ParaView, meshio), to a temporary file that is renamed.
 /// Throws Error where the file cannot be written.
 void writeVtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<NodalArray>& arrays = {});
 

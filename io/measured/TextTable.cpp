@@ -30,8 +30,8 @@ public:
     for (std::string line; first.size() < kLinesLookedAt && bytes < kBytesLookedAt && lines_.next(line);) {
       bytes += line.size();
       first.push_back({lines_.number(), line});
+      lastOfFirstIsCut_ = lines_.withoutEnd();
     }
-    lastOfFirstIsCut_ = lines_.withoutEnd();
     if (first.empty()) throw Error(path.string() + ": the file is empty");
     layout_ = findLayout(first, form, path.string());
     for (NumberedLine& line : first)

@@ -7,6 +7,7 @@
 #include "nn/linear/RidgeFit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -82,6 +83,7 @@ std::vector<std::vector<Eigen::Index>> membersOf(const Eigen::VectorXi& classes)
 
 Eigen::VectorXd ForwardModel::measurementsOf(std::size_t c, const Eigen::Ref<const Eigen::VectorXd>& y,
                                              Eigen::MatrixXd* jacobian) const {
+  assert(c < classes() && y.size() == parameters() && "a class of the model and all its parameters");
   const Eigen::VectorXd scaled = (y - parameterOffset).cwiseProduct(parameterFactor);
   Eigen::MatrixXd slope;
   const Eigen::VectorXd value =

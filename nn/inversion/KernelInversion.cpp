@@ -4,6 +4,7 @@
 #include "nn/linear/Lapack.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -31,6 +32,7 @@ std::vector<Eigen::Index> KernelForwardModel::varied() const {
 }
 
 Eigen::MatrixXd KernelForwardModel::slopes(const Eigen::Ref<const Eigen::VectorXd>& parameters) const {
+  assert(parameters.size() == this->parameters() && "all parameters, the constant ones too");
   const std::vector<Eigen::Index> inputs = varied();
   const Eigen::VectorXd scaled = (parameters - parameterOffset).cwiseProduct(parameterFactor)(inputs);
   Eigen::VectorXd value;
@@ -167,6 +169,7 @@ std::vector<Eigen::VectorXd> KernelInversion::initialGuessesFor(const Eigen::Vec
 }
 
 KernelEstimate KernelInversion::estimate(const Eigen::Ref<const Eigen::VectorXd>& measurement) const {
+  assert(measurement.size() == model_.measurements() && "one reading for each measurement");
   const Eigen::VectorXd change = (measurement - model_.measurementOffset).cwiseMax(-kWild).cwiseMin(kWild);
   const Eigen::VectorXd wanted = lapack::product(weighted_, false, change, false);
   Trial best;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -56,6 +57,7 @@ Eigen::MatrixXd collocation(int nodes) {
 template <class Number>
 void SplineTable::evaluate(const Number* numbers, double unit, const Eigen::Ref<const Eigen::VectorXd>& input,
                            Eigen::VectorXd& value, Eigen::MatrixXd& slope) const {
+  assert(input.size() == inputs() && "one number for each input");
   std::array<SplinesAt, 2> at;
   for (std::size_t axis = 0; axis < 2; ++axis)
     at[axis] = splinesAt(place[axis] < 0 ? low(static_cast<Eigen::Index>(axis)) : input(place[axis]),
@@ -118,6 +120,7 @@ Eigen::MatrixXd SplineTable::monomials(const Eigen::Ref<const Eigen::VectorXd>& 
 }
 
 void SplineTable::interpolate(Eigen::MatrixXd values) {
+  assert(values.cols() == terms() * nodes[0] * nodes[1] && "one column for each term and node");
   const Eigen::Index block = outputs() * terms();
   for (int axis = 0; axis < 2; ++axis) {
     const int along = nodes[static_cast<std::size_t>(axis)], lines = nodes[static_cast<std::size_t>(1 - axis)];

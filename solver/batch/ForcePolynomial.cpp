@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -38,6 +39,7 @@ Eigen::VectorXd ForcePolynomial::monomials(const Eigen::Vector3d& force_N) const
 }
 
 Eigen::MatrixXd ForcePolynomial::fit(const std::vector<Eigen::Vector3d>& forces_N) const {
+  assert(static_cast<int>(forces_N.size()) >= terms() && "least squares need a force for each term");
   const auto count = static_cast<Eigen::Index>(forces_N.size());
   Eigen::MatrixXd M(count, terms());
   for (Eigen::Index i = 0; i < count; ++i) M.row(i) = monomials(forces_N[i]).transpose();

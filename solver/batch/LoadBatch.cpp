@@ -1,6 +1,7 @@
 #include "solver/batch/LoadBatch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -95,6 +96,7 @@ void LoadBatch::mix(int column, bool inSingle) {
 }
 
 void LoadBatch::continueWith(int column, bool extrapolate) {
+  assert(mixing_ && column >= 0 && column < batchColumns && "a column started with mix");
   mixing_->restart(column);
   InitialGuess& guess = guesses_[column / lanes];
   guess.begins[column % lanes] = -1;
@@ -104,6 +106,7 @@ void LoadBatch::continueWith(int column, bool extrapolate) {
 
 /// Pending updates are done first, so that they need not be moved.
 void LoadBatch::move(int from, int to) {
+  assert(mixing_ && from != to && std::min(from, to) >= 0 && std::max(from, to) < batchColumns);
   const int old = from / lanes, now = to / lanes;
   updateInternal(old);
   updateInternal(now);
@@ -315,6 +318,7 @@ void LoadBatch::iterate(const std::array<bool, batchColumns>& active, std::array
 void LoadBatch::iterate(const std::array<bool, batchColumns>& active, std::array<double, batchColumns>& change,
                         std::span<const int> nodes, const FactorPath& path, const Answer& answer,
                         const std::stop_token& stop) {
+  assert((nodes.empty() || answer) && "contact nodes need their forces");
   std::array<bool, blocks> live{};
   for (int column = 0; column < batchColumns; ++column) live[column / lanes] = live[column / lanes] || active[column];
   for (int b = 0; b < blocks; ++b)

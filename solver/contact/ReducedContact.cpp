@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -42,6 +43,7 @@ ReducedContact::ReducedContact(const std::vector<Indenter>& indenters, const std
     : indenters_(indenters), points_(points), tips_mm_(std::move(tips_mm)) {}
 
 void ReducedContact::startStep(const Eigen::Matrix3Xd& positions_mm, const ContactState& start) {
+  assert(positions_mm.cols() == Eigen::Index(points_.size()) && "one position for each point");
   startPlaces_mm_ = positions_mm;
   touchedAtStart_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -116,6 +118,9 @@ ReducedContact::Conditions ReducedContact::conditions(int point, const Eigen::Ve
 bool ReducedContact::solve(const Eigen::MatrixXd& compliance, const Eigen::Matrix3Xd& positions_mm,
                            const std::vector<ContactTarget>& targets, ContactState& state,
                            const std::stop_token& stop) const {
+  assert(compliance.rows() == 3 * Eigen::Index(points_.size()) && compliance.cols() == compliance.rows() &&
+         positions_mm.cols() == Eigen::Index(points_.size()) && "one block and one position for each point");
+  assert(targets.size() == indenters_.size() && state.statuses.size() == points_.size() && "one target per indenter");
   const ContactState start = state;
   if (std::none_of(indenters_.begin(), indenters_.end(), [](const Indenter& one) { return one.friction > 0; }))
     return solve(compliance, positions_mm, targets, 1, state, stop);

@@ -5,6 +5,7 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 extern "C" void dpotri_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -79,6 +80,7 @@ bool invertByPanels(Eigen::MatrixXd& lower, const std::stop_token& stop) {
 } // namespace
 
 bool invertFromCholesky(Eigen::MatrixXd& lower, const std::stop_token& stop) {
+  assert(lower.rows() == lower.cols() && "a square factor");
   useOneBlasThread();
   const auto n = static_cast<int>(lower.rows());
   if (n >= kWholeBelow) return invertByPanels(lower, stop);
@@ -88,6 +90,7 @@ bool invertFromCholesky(Eigen::MatrixXd& lower, const std::stop_token& stop) {
 }
 
 bool solveDense(Eigen::MatrixXd& matrix, Eigen::VectorXd& rightSide, const std::stop_token& stop) {
+  assert(matrix.rows() == matrix.cols() && rightSide.size() == matrix.rows() && "a square system");
   useOneBlasThread();
   const auto n = static_cast<int>(matrix.rows());
   if (n == 0) return true;

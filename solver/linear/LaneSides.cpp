@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace palp {
@@ -44,6 +45,7 @@ void SparseCholesky::substitute(const double* b, UnsetArray<float>& work, double
 }
 
 void SparseCholesky::solve(LaneSides& sides, const std::stop_token& stop) const {
+  assert(sides.unknowns == plan_->tree().size() && "one row for each unknown");
   const std::size_t held = std::size_t(sides.held) * batchColumns;
   for (UnsetArray<double>* each : {&sides.right, &sides.first, &sides.x}) std::fill_n(each->data(), held, 0.);
   double *right = sides.right.data() + held, *first = sides.first.data() + held;

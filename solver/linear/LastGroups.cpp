@@ -4,6 +4,7 @@
 #include "solver/linear/SparseCholesky.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace palp {
@@ -44,6 +45,7 @@ Eigen::MatrixXd SparseCholesky::inverseOfLast(const std::stop_token& stop) const
 // With L the factor's last rows and y the right-hand side's part there after the forward sweep, the unknowns' motion is
 // L^-T y; forces f on them add L^-1 f to y.
 void SparseCholesky::solve(Eigen::VectorXd& rightSide, const Answer& answer, const std::stop_token& stop) const {
+  assert(rightSide.size() == plan_->tree().size() && "one number for each unknown");
   const std::vector<int> rows = rowsOfLast();
   const auto lower = lastRows_.triangularView<Eigen::Lower>();
   const int start = plan_->tree().size() - plan_->lastUnknowns();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <numeric>
 
 namespace palp {
@@ -310,6 +311,7 @@ private:
 
 SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads, const std::stop_token& stop,
                                                   UpdatePrecision products) {
+  assert(values.size() == plan_->pattern().rows.size() && "one value for each entry of the pattern");
   useOneBlasThread();
   matrix_ = std::move(values);
   lastRows_.setZero(plan_->lastUnknowns(), plan_->lastUnknowns());
@@ -351,6 +353,7 @@ SparseCholesky::Outcome SparseCholesky::factorise(LaneVector values, int threads
 }
 
 void SparseCholesky::solve(Eigen::VectorXd& rightSide, const std::stop_token& stop) const {
+  assert(rightSide.size() == plan_->tree().size() && "one number for each unknown");
   Eigen::VectorXd x = rightSide;
   substitute(x, stop);
   rightSide -= times(x);

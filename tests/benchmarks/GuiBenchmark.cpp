@@ -177,7 +177,7 @@ int measureViews() {
               }));
   std::printf("block alone, warped anew a frame   %5.1f ms CPU\n", cpuAFrame_ms({&block}, [&](int frame) {
                 DeformationOptions options;
-                options.warpFactor = 1 + frame;
+                options.deformationScale = 1 + frame;
                 block.show(state, options, false);
               }));
   return 0;

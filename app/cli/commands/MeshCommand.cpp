@@ -30,7 +30,7 @@ Exit run(const MeshArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   LoadCase load;
   if (deck) load = arguments.loads.loadCase(design);
-  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
+  printMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   touch.advance(Stage::Mesh, {}, {{}, session.stop});
   session.stages.add(touch.stages());

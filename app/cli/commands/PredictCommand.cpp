@@ -159,7 +159,7 @@ void printBound(const std::string& who, const ErrorsOverBounds& over) {
 std::vector<std::pair<std::string, ErrorsOverBounds>> besideBounds(const SensorDesign& design, const SampleSet& samples,
                                                                    const Decoder& decoder, const Prediction& prediction,
                                                                    double noise, Session& session) {
-  sayMeshCost(design, meshForTouches(design, touchesOf(design), {}), session);
+  printMeshCost(design, meshForTouches(design, touchesOf(design), {}), session);
   const auto bounds = session.stages.measure(
       "bounds", [&] { return touchBounds(samples, design, noise, {}, session.threads, session.stop); });
   if (!bounds) throw Cancelled();

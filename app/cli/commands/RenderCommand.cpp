@@ -39,7 +39,7 @@ Exit run(const RenderArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   if (arguments.output.path.extension() != ".png")
     throw badValue("--output", arguments.output.path.string(), "a name that ends in .png");
-  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
+  printMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;

@@ -73,7 +73,7 @@ Exit run(ReportArguments& arguments, Session& session) {
     request.touches = arguments.touches.range(request.design);
     (void)mapRequest(*request.touches, request.design, 1e-4, {2, 2}, "report " + arguments.kind); // refuses
   }
-  sayMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
+  printMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
   request.threads = session.threads;
   request.command = commandLine(arguments);
   request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();

@@ -86,7 +86,7 @@ Exit run(const ReproduceArguments& arguments, Session& session) {
   const OutputFolder folder(arguments.folder, arguments.force);
 
   const SensorDesign design = paperDesign();
-  sayMeshCost(design, options.mesh, session);
+  printMeshCost(design, options.mesh, session);
   ProgressBar bar("reproduce", 1000);
   const auto result = runPaperProtocol(
       design, figures(arguments.what), options,

@@ -60,7 +60,7 @@ Exit run(const SampleArguments& arguments, Session& session) {
   arguments.output.requireWritable();
   const SampleRequest wanted = request(arguments, design, session);
   SampleGenerator generator(design, wanted);
-  sayMeshCost(design, generator.meshing(), session);
+  printMeshCost(design, generator.meshing(), session);
   const SampleRange range = shardOption(arguments.shardText, generator.total());
   SampleSet head = generator.emptySet(session.stop);
   if (session.stop.stop_requested()) { // before there is a head to write

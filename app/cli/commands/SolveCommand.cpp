@@ -122,7 +122,7 @@ Exit runPath(const SolveArguments& arguments, const SensorDesign& design, Sessio
   arguments.output.requireWritable();
   NewtonOptions options;
   options.threads = session.threads;
-  sayMeshCost(design, meshFor(design, path.front(), arguments.mesh.options()), session);
+  printMeshCost(design, meshFor(design, path.front(), arguments.mesh.options()), session);
   return solvePath(design, path, arguments.mesh.options(), options, observer(session), arguments.output, session);
 }
 
@@ -132,7 +132,7 @@ Exit run(const SolveArguments& arguments, Session& session) {
   const LoadCase load = arguments.loads.loadCase(design);
   const auto pair = currentOption(arguments, design);
   arguments.output.requireWritable();
-  sayMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
+  printMeshCost(design, meshFor(design, load, arguments.mesh.options()), session);
   Touch touch(design, load, arguments.mesh.options());
   NewtonOptions options;
   options.threads = session.threads;

@@ -29,7 +29,7 @@ constexpr std::size_t kProgressSteps = 10'000;
 constexpr std::size_t kMostToEstimate = 1000; // designs: each takes some tenths of a millisecond
 
 /// Of the designs that are not done yet, the one with the largest mesh; of very many, of evenly chosen ones.
-void sayLargestMesh(const StudyFolder& study, const SampleRange& range, Session& session) {
+void printLargestMesh(const StudyFolder& study, const SampleRange& range, Session& session) {
   const MeshOptions options{.meshSize_mm = study.plan().meshSize_mm, .mapped = study.plan().mapped};
   std::optional<std::size_t> largest;
   double most = 0;
@@ -45,7 +45,7 @@ void sayLargestMesh(const StudyFolder& study, const SampleRange& range, Session&
       continue;
     }
   }
-  if (largest) sayMeshCost(study.plan().at(*largest), options, session, "design " + std::to_string(*largest) + ": ");
+  if (largest) printMeshCost(study.plan().at(*largest), options, session, "design " + std::to_string(*largest) + ": ");
 }
 
 Exit run(const StudyArguments& arguments, Session& session) {
@@ -58,7 +58,7 @@ Exit run(const StudyArguments& arguments, Session& session) {
     session.warnings.push_back(arguments.folder.string() + ": " + mixed);
     std::cerr << "palp study: " << session.warnings.back() << '\n';
   }
-  sayLargestMesh(study, range, session);
+  printLargestMesh(study, range, session);
   ProgressBar bar("study", kProgressSteps);
   const bool whole = study.compute(
       range.first, range.last, session.threads,

@@ -84,7 +84,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
   if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
-    sayMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
+    printMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
   takeDefaultsOf(samples, arguments.train.isGiven("input"), arguments.train.isGiven("rows"), options);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);

@@ -14,7 +14,7 @@ QString boundPercents(const Eigen::Vector3d& bound_percent);
 /// The same in N: "0.024 / 0.019 / 0.074 N".
 QString boundNewtons(const Eigen::Vector3d& bound_percent, const ForceRange& range);
 
-/// Both designs' bounds beside each other, as a table in HTML.
+/// The bounds of both designs, as a table in HTML.
 QString boundTable(const QString& nameA, const BoundSummary& a, const QString& nameB, const BoundSummary& b);
 
 } // namespace palp

@@ -44,7 +44,7 @@ Answer answerOf(const SensorDesign& design, const LoadCase& load, const SensorDe
   return answer;
 }
 
-/// Empty where there is no such mesh; the answer says why.
+/// Empty where there is no such mesh; the answer contains the reason.
 std::string costOf(const SensorDesign& design, const DesignsCompared& compared, const MeshOptions& mesh) {
   try {
     return costInBrief(meshCost(design, meshFor(design, matchedLoad(compared.load, compared.now, design), mesh)));

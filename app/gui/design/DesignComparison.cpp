@@ -6,6 +6,7 @@
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 
 #include <QComboBox>
@@ -65,13 +66,13 @@ DesignComparison::DesignComparison(Workbench& workbench, QWidget* parent) : QWid
   });
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     if (runner_.running()) runner_.cancel(); // of the other project
-    keptBefore_.clear();
+    referencesBefore_.clear();
     asked_.reset();
     displayProject();
   });
   // The history has its new entry only after the project has changed.
   connect(&workbench_.history(), &QUndoStack::indexChanged, this, &DesignComparison::displayProject);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   displayProject();
 }
 
@@ -83,31 +84,26 @@ void DesignComparison::build() {
   column->setContentsMargins(0, 0, 0, 0);
   auto* with = new QHBoxLayout;
   with->addWidget(new QLabel(tr("Compare this design with")));
-  list_ = new QComboBox;
-  list_->setObjectName("compareWith");
-  list_->setAccessibleName(tr("Design to compare with"));
-  list_->setToolTip(tr("Earlier designs, each named by the edit that replaced it, and the reference design"));
+  list_ = choiceBox("compareWith", {},
+                    tr("Earlier designs, each named by the edit that replaced it, and the reference design"),
+                    tr("Design to compare with"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   with->addWidget(list_, 1);
   column->addLayout(with);
   auto* buttons = new QHBoxLayout;
-  compare_ = new QPushButton(tr("Compare"));
-  compare_->setObjectName("compareDesigns");
-  compare_->setToolTip(tr("Solves both designs under the load and computes the error bounds of both; Esc cancels"));
-  fields_ = new QPushButton(tr("Show the difference of the fields"));
-  fields_->setObjectName("keptFields");
-  fields_->setToolTip(tr("Colours the block on the Deformation scene by this design minus the selected one, which "
-                         "becomes the reference design"));
+  compare_ = pushButton(tr("Compare"), "compareDesigns",
+                        tr("Solves both designs under the load and computes the error bounds of both; Esc cancels"));
+  fields_ = pushButton(tr("Show the difference of the fields"), "keptFields",
+                       tr("Colours the block on the Deformation scene by this design minus the selected one, which "
+                          "becomes the reference design"));
   for (QPushButton* button : {compare_, fields_}) buttons->addWidget(button);
   column->addLayout(buttons);
   auto* more = new QHBoxLayout;
-  back_ = new QPushButton(tr("Restore"));
-  back_->setObjectName("takeKept");
-  back_->setToolTip(tr("Makes the selected design the current design again; this can be undone"));
-  keep_ = new QPushButton(tr("Set as reference"));
-  keep_->setObjectName("keepDesign");
-  keep_->setToolTip(tr(
-      "Stores the current design as the reference that later designs are compared with; it is saved with the project"));
+  back_ = pushButton(tr("Restore"), "takeKept",
+                     tr("Makes the selected design the current design again; this can be undone"));
+  keep_ = pushButton(tr("Set as reference"), "keepDesign",
+                     tr("Stores the current design as the reference that later designs are compared with; it is saved "
+                        "with the project"));
   for (QPushButton* button : {back_, keep_}) more->addWidget(button);
   column->addLayout(more);
   stale_ = new QLabel;
@@ -126,7 +122,7 @@ void DesignComparison::build() {
   difference_->setObjectName("comparisonMap");
   difference_->hide();
   row->addWidget(difference_, 1);
-  row->addStretch(); // beside the words alone
+  row->addStretch(); // next to the text alone
 }
 
 void DesignComparison::setTheme(Theme theme) {
@@ -153,7 +149,7 @@ void DesignComparison::listChoices() {
               (each.design == project.kept ? tr(" (reference)") : QString()),
           each.design);
   if (project.kept) offer(tr("the reference design (%1)").arg(blockWords(*project.kept)), *project.kept);
-  for (const SensorDesign& each : keptBefore_) offer(tr("former reference (%1)").arg(blockWords(each)), each);
+  for (const SensorDesign& each : referencesBefore_) offer(tr("former reference (%1)").arg(blockWords(each)), each);
   const auto& compared = project.studies.compared;
   if (compared) offer(QString::fromStdString(compared->name), compared->earlier);
   const QSignalBlocker quiet(list_);
@@ -178,7 +174,7 @@ void DesignComparison::choose(int index) {
 
 void DesignComparison::keep() {
   Project next = workbench_.project();
-  if (next.kept && next.kept != next.design) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  if (next.kept && next.kept != next.design) referencesBefore_.insert(referencesBefore_.begin(), *next.kept);
   next.kept = asked_ = next.design;
   workbench_.closeEntry();
   workbench_.edit(tr("Set the reference design"), next);
@@ -186,11 +182,7 @@ void DesignComparison::keep() {
 
 void DesignComparison::goBack() {
   Project next = workbench_.project();
-  next.design = chosen()->design;
-  std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= next.design.areas.count(); });
-  std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, next.design); });
-  std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, next.design); });
-  next.path = pathKept(next.path, workbench_.project().load, next.load);
+  setDesign(next, chosen()->design);
   asked_.reset();
   workbench_.closeEntry();
   workbench_.edit(tr("Restore an earlier design"), next);
@@ -199,11 +191,11 @@ void DesignComparison::goBack() {
 void DesignComparison::showFields() {
   Project next = workbench_.project();
   const SensorDesign with = chosen()->design;
-  if (next.kept && next.kept != with) keptBefore_.insert(keptBefore_.begin(), *next.kept);
+  if (next.kept && next.kept != with) referencesBefore_.insert(referencesBefore_.begin(), *next.kept);
   next.kept = asked_ = with;
-  next.view.lessKept = true;
+  next.view.lessReference = true;
   workbench_.edit(tr("Show the difference of the fields"), next);
-  emit fieldsAsked();
+  emit fieldsRequested();
 }
 
 void DesignComparison::displayProject() {
@@ -269,9 +261,7 @@ void DesignComparison::compare() {
         if (!compareDesigns(result, mesh, report, stop)) return {};
         return [this, result] {
           shown_.reset(); // also where it is what was found before
-          Project next = workbench_.project();
-          next.studies.compared = result;
-          workbench_.edit(tr("Compare two designs"), next);
+          workbench_.edit(tr("Compare two designs"), [&](Project& next) { next.studies.compared = result; });
         };
       },
       JobRunner::Loss::Work);

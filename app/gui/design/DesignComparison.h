@@ -17,8 +17,8 @@ namespace palp {
 
 class HeatmapView;
 
-/// The design beside an earlier one, of the history or one that was kept: what both resolve, and how their answers to
-/// the load differ.
+/// The design compared with an earlier one, of the history or the reference: what both resolve, and how their answers
+/// to the load differ.
 class DesignComparison : public QWidget {
   Q_OBJECT
 
@@ -31,7 +31,7 @@ public:
 
 signals:
   /// The difference of the fields is to be seen.
-  void fieldsAsked();
+  void fieldsRequested();
 
 private:
   /// A design that can be compared with.
@@ -52,9 +52,9 @@ private:
   Workbench& workbench_;
   JobRunner runner_;
   std::vector<Choice> choices_;
-  std::vector<SensorDesign> keptBefore_; ///< in whose place another one was kept since
-  std::optional<SensorDesign> asked_;    ///< chosen by hand, or just kept
-  std::optional<DesignsCompared> shown_; ///< as it is displayed
+  std::vector<SensorDesign> referencesBefore_; ///< in whose place another one was kept since
+  std::optional<SensorDesign> asked_;          ///< chosen by hand, or just kept
+  std::optional<DesignsCompared> shown_;       ///< as it is displayed
   QComboBox* list_ = nullptr;
   QPushButton* keep_ = nullptr;
   QPushButton* compare_ = nullptr;

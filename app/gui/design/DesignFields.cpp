@@ -35,7 +35,7 @@ QString setCount(int& target, const QString& words) {
   return {};
 }
 
-/// Goes on from the last two values in equal steps until `last`, or says what is wrong.
+/// Continues from the last two values in equal steps until `last`, or returns what is wrong.
 QString goOn(std::vector<double>& values, double last) {
   constexpr double kMost = 1000;
   if (values.size() < 2)
@@ -54,7 +54,7 @@ QString goOn(std::vector<double>& values, double last) {
 QString setList(std::vector<double>& target, const QString& words) {
   if (const QString unclear = unclearComma(words); !unclear.isEmpty()) return unclear;
   std::vector<double> values;
-  bool evenly = false; // "..." stood before
+  bool evenly = false; // after "..."
   for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {
     if (word.trimmed() == "..." && !evenly) {
       evenly = true;

@@ -10,6 +10,7 @@
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/ViewBar.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
 #include "app/scenes/block/map/FaceMap.h"
@@ -87,23 +88,13 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
   row->addWidget(buildSide());
   row->addWidget(buildViews(), 1);
   connect(panel_, &DesignPanel::edited, this, [this](const QString& what, const SensorDesign& design) {
-    Project next = workbench_.project();
-    next.design = design;
-    std::erase_if(next.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
-    std::erase_if(next.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
-    std::erase_if(next.load.indenters, [&](const Indenter& its) { return whyInvalid(its, design); });
-    next.path = pathKept(next.path, workbench_.project().load, next.load);
-    workbench_.edit(what, next);
+    workbench_.edit(what, [&](Project& next) { setDesign(next, design); });
   });
   connect(panel_, &DesignPanel::scalingChosen, this, [this](bool on) {
-    Project next = workbench_.project();
-    next.studies.scaleWires = on;
-    workbench_.edit(tr("Scale the wires with the block"), next);
+    workbench_.edit(tr("Scale the wires with the block"), [&](Project& next) { next.studies.scaleWires = on; });
   });
   connect(showMesh_, &QCheckBox::toggled, this, [this](bool on) {
-    Project next = workbench_.project();
-    next.view.mesh = on;
-    workbench_.edit(tr("Show the mesh"), next);
+    workbench_.edit(tr("Show the mesh"), [&](Project& next) { next.view.mesh = on; });
     emit stageChanged();
   });
   connect(automaticSize_, &QCheckBox::toggled, this, &DesignPage::editMesh);
@@ -113,14 +104,14 @@ DesignPage::DesignPage(Workbench& workbench, NetworkSession& network, QWidget* p
     if (!meshChanged) return;
     ++mesh_;
     measured_.reset();
-    measureAsked_ = false;
+    measureRequested_ = false;
     draw();
     displayMesh();
   });
-  connect(comparison_, &DesignComparison::fieldsAsked, this, [this] { emit sceneAsked("deformation"); });
+  connect(comparison_, &DesignComparison::fieldsRequested, this, [this] { emit sceneRequested("deformation"); });
   connect(map_, &DesignMap::overBlockChanged, this, &DesignPage::draw);
-  // What was cancelled is asked for again when the page is next brought up to date.
-  connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureAsked_ &= !cancelled; });
+  // What was cancelled is requested again when the page is next updated.
+  connect(&measuring_, &JobRunner::finished, this, [this](bool cancelled) { measureRequested_ &= !cancelled; });
   displayProject();
 }
 
@@ -140,10 +131,7 @@ QWidget* DesignPage::buildViews() {
   auto* upper = new QWidget;
   auto* column = new QVBoxLayout(upper);
   column->setContentsMargins(0, 0, 0, 0);
-  auto* bar = new QHBoxLayout;
-  bar->addStretch(1);
-  bar->addWidget(new ViewBar(*block_));
-  column->addLayout(bar);
+  column->addLayout(inRow({Part::stretch(), new ViewBar(*block_)}));
   column->addWidget(block_, 1);
   views->addWidget(upper);
   views->addWidget(buildStudies());
@@ -181,26 +169,18 @@ std::vector<JobRunner*> DesignPage::runners() {
 QGroupBox* DesignPage::buildMesh() {
   auto* box = new QGroupBox(tr("Mesh"));
   auto* column = new QVBoxLayout(box);
-  showMesh_ = new QCheckBox(tr("Make and show the mesh"));
-  showMesh_->setObjectName("showMesh");
+  showMesh_ = checkBox(tr("Make and show the mesh"), "showMesh");
   column->addWidget(showMesh_);
   auto* sizeRow = new QHBoxLayout;
-  automaticSize_ = new QCheckBox(tr("Standard size"));
-  automaticSize_->setObjectName("automaticSize");
-  automaticSize_->setToolTip(tr("Graded mesh for an error of about 1 % in the electrode displacements"));
-  size_ = new NumberBox;
-  size_->setObjectName("meshSize");
-  size_->setRange(0.5, 100);
+  automaticSize_ = checkBox(tr("Standard size"), "automaticSize",
+                            tr("Graded mesh for an error of about 1 % in the electrode displacements"));
+  size_ = numberBox("meshSize", {.low = 0.5, .high = 100, .unit = tr(" mm")},
+                    tr("Size of the tetrahedra in the bulk; the graded region scales with it"));
   size_->setValue(3);
-  size_->setSuffix(tr(" mm"));
-  size_->setKeyboardTracking(false);
-  size_->setToolTip(tr("Size of the tetrahedra in the bulk; the graded region scales with it"));
   sizeRow->addWidget(automaticSize_);
   sizeRow->addWidget(size_);
   column->addLayout(sizeRow);
-  meshWords_ = new QLabel;
-  meshWords_->setObjectName("meshWords");
-  meshWords_->setWordWrap(true);
+  meshWords_ = textLabel("meshWords");
   meshWords_->setMinimumHeight(2 * meshWords_->fontMetrics().lineSpacing()); // also where the window is low
   column->addWidget(meshWords_);
   column->addStretch(1);
@@ -299,7 +279,7 @@ void DesignPage::displayMesh() {
 }
 
 void DesignPage::measureMesh() {
-  if (std::exchange(measureAsked_, true)) return;
+  if (std::exchange(measureRequested_, true)) return;
   measuring_.start(tr("Measuring the mesh"),
                    [this, number = mesh_, touch = workbench_.touch().touch()](const std::stop_token&,
                                                                               JobProgress&) -> JobRunner::Taking {

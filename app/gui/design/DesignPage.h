@@ -22,7 +22,7 @@ class DesignSweep;
 class LayoutFinder;
 class NoiseFloor;
 
-/// The sensor at rest with all its parameters; the mesh only when asked for.
+/// The sensor at rest with all its parameters; the mesh only on request.
 class DesignPage : public Scene {
   Q_OBJECT
 
@@ -38,7 +38,7 @@ public:
 signals:
   /// The page needs another stage than before.
   void stageChanged();
-  void sceneAsked(const QString& scene);
+  void sceneRequested(const QString& scene);
 
 protected:
   void showEvent(QShowEvent* event) override;
@@ -71,7 +71,7 @@ private:
   NoiseFloor* floor_ = nullptr;
   quint64 mesh_ = 0;                    ///< number of the mesh that is shown
   std::optional<MeshQuality> measured_; ///< of that mesh
-  bool measureAsked_ = false;
+  bool measureRequested_ = false;
   JobRunner measuring_;
 };
 

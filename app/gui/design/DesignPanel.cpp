@@ -1,20 +1,24 @@
 #include "app/gui/design/DesignPanel.h"
 
-#include "app/gui/design/DesignPresets.h"
 #include "app/gui/design/LawPanel.h"
 #include "app/gui/design/WireScaling.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/WrappedLabel.h"
+#include "model/SensorDesign.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QMap>
+#include <QObject>
 #include <QSignalBlocker>
+#include <QString>
 #include <QVBoxLayout>
 
 #include <cmath>
+#include <vector>
 
 namespace palp {
 
@@ -24,14 +28,46 @@ QString number(double value) {
   return QString::number(value, 'g', 5);
 }
 
+/// A design to start from.
+struct DesignPreset {
+  QString name;
+  QString tip;
+  SensorDesign design;
+};
+
+/// The paper's first; the others differ from it in what their names say.
+std::vector<DesignPreset> designPresets() {
+  const SensorDesign paper = paperDesign();
+  SensorDesign following = paper;
+  following.lowerFollowsRubber = true;
+  SensorDesign incompressible = paper;
+  incompressible.material.poissonRatio = 0.5;
+  SensorDesign fine = paper;
+  fine.areas.columns = 4;
+  fine.areas.rows = 3;
+  SensorDesign piezoresistive = paper;
+  piezoresistive.pressureLaw = PressureLaw{};
+  return {
+      {QObject::tr("Paper's sensor"),
+       QObject::tr("Sensor of F. Wang et al. 2013 (see Help, About): 30 x 30 x 5 mm, 10 x 30 wires, six load areas"),
+       paper},
+      {QObject::tr("Lower electrodes follow the rubber"),
+       QObject::tr("The paper fixes the lower electrodes. Where they follow the rubber, dR changes by more than half."),
+       following},
+      {QObject::tr("Incompressible rubber"), QObject::tr("The paper's sensor with a Poisson's ratio of 0.5"),
+       incompressible},
+      {QObject::tr("Twelve load areas"), QObject::tr("The paper's block with 4 x 3 load areas"), fine},
+      {QObject::tr("Resistivity falls with pressure"),
+       QObject::tr("The paper's sensor with the pressure law of its Fig. 1"), piezoresistive}};
+}
+
 } // namespace
 
 DesignPanel::DesignPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 6, 0);
-  derived_ = new WrappedLabel;
+  derived_ = wrappedLabel("derived");
   derived_->setTextFormat(Qt::RichText);
-  derived_->setObjectName("derived");
   derived_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   buildPresets();
   buildFields();
@@ -50,10 +86,9 @@ void DesignPanel::buildPresets() {
   presets->setCurrentIndex(-1);
   layout()->addWidget(presets);
   auto* limits =
-      new WrappedLabel(tr("One rectangular block of Mooney-Rivlin rubber: no round or domed bodies, no layers, no "
-                          "other laws, no creep (F1, What Palp cannot do)."));
-  limits->setObjectName("designLimits");
-  limits->setProperty("role", "hint");
+      wrappedLabel("designLimits", "hint",
+                   tr("One rectangular block of Mooney-Rivlin rubber: no round or domed bodies, no layers, no "
+                      "other laws, no creep (F1, What Palp cannot do)."));
   layout()->addWidget(limits);
   connect(presets, &QComboBox::activated, this, [this, presets, all](int k) {
     presets->setCurrentIndex(-1);
@@ -88,10 +123,9 @@ void DesignPanel::buildFields() {
 }
 
 void DesignPanel::addWireScaling(QFormLayout& form) {
-  scaleWires_ = new QCheckBox(tr("Scale the wires with the block"));
-  scaleWires_->setObjectName("scaleWires");
-  scaleWires_->setToolTip(tr("When on, a change of the block's size moves the wires and electrodes of both layers in "
-                             "proportion. When off, they keep their positions."));
+  scaleWires_ = checkBox(tr("Scale the wires with the block"), "scaleWires",
+                         tr("When on, a change of the block's size moves the wires and electrodes of both layers in "
+                            "proportion. When off, they keep their positions."));
   form.addRow(scaleWires_);
   connect(scaleWires_, &QCheckBox::toggled, this, &DesignPanel::scalingChosen);
 }
@@ -102,10 +136,9 @@ void DesignPanel::displayScaling(bool on) {
 }
 
 void DesignPanel::addFollowing(QFormLayout& form) {
-  follows_ = new QCheckBox(tr("Electrodes follow the rubber"));
-  follows_->setObjectName("follows");
-  follows_->setToolTip(
-      tr("The paper fixes the lower electrodes. Where they follow the rubber, dR changes by more than half."));
+  follows_ =
+      checkBox(tr("Electrodes follow the rubber"), "follows",
+               tr("The paper fixes the lower electrodes. Where they follow the rubber, dR changes by more than half."));
   form.addRow(follows_);
   connect(follows_, &QCheckBox::toggled, this, [this] { read(tr("Fix or release the lower electrodes")); });
 }
@@ -151,7 +184,7 @@ void DesignPanel::readSize(const QString& what) {
   good = good && faults.empty();
   say(faults, good);
   if (!good) return;
-  design_ = next; // before display(), which tells by it who changed the design
+  design_ = next; // before display(), which detects by it who changed the design
   emit edited(tr("%1, and the wires with it").arg(what), next);
 }
 

@@ -12,7 +12,7 @@ namespace palp {
 
 class LawPanel;
 
-/// Every parameter of the design with its unit, checked while typing; what is wrong or not in use is said under the
+/// Every parameter of the design with its unit, checked while typing; what is wrong or not in use is shown under the
 /// field itself.
 class DesignPanel : public QWidget {
   Q_OBJECT

@@ -76,7 +76,7 @@ void DesignRows::add(const DesignField& field, QFormLayout& form, const std::fun
   row.label = new QLabel(field.unit.isEmpty() ? label : label + " [" + field.unit + "]");
   row.label->setBuddy(widget);
   const auto isLong = [](const DesignChoice& choice) { return choice.words.size() > kLongChoice; };
-  if (std::any_of(field.choices.begin(), field.choices.end(), isLong)) { // beside its label it would be cut
+  if (std::any_of(field.choices.begin(), field.choices.end(), isLong)) { // next to its label it would be cut
     form.addRow(row.label);
     form.addRow(widget);
   } else {
@@ -124,7 +124,7 @@ void DesignRows::say(const std::vector<DesignFault>& faults, const SensorDesign&
         sentence = QString::fromStdString(fault.sentence);
     SensorDesign written = inUse;
     const bool same = row.field->set(written, row.words()).isEmpty() && written == inUse;
-    // Of numbers of a law that is not in use the law's own row says so.
+    // For numbers of a law that is not in use the law's own row reports it.
     const bool used = row.field->has(inUse) ? same : sentence.isEmpty();
     if (!applied && !used) {
       const QString words = usedWords(*row.field, inUse);

@@ -21,7 +21,7 @@ WrappedLabel* problemLabel();
 /// Marked with a red frame.
 void markWrong(QLineEdit& edit, bool wrong);
 
-/// Rows of a panel, one a parameter of the design; what is wrong with one, or not in use, is said under it.
+/// Rows of a panel, one a parameter of the design; what is wrong with one, or not in use, is shown under it.
 class DesignRows {
 public:
   /// `edited` is called by the user's hand alone.
@@ -29,9 +29,9 @@ public:
 
   /// Rows that say the same already are left as they are written; so are those that the design does not have.
   void display(const SensorDesign& design);
-  /// Sets what is written, of the keys that begin with `keys`; false where something is no value.
+  /// Sets what is written, of the keys that begin with `keys`; false where something is not a value.
   bool read(SensorDesign& design, const QString& keys = {});
-  /// Says what was wrong at read() and these faults under their rows; in use is what the design has.
+  /// Shows what was wrong at read() and these faults under their rows; in use is what the design has.
   void say(const std::vector<DesignFault>& faults, const SensorDesign& inUse, bool applied);
   /// Hides the rows that the design does not have.
   void showThoseOf(const SensorDesign& design);

@@ -9,6 +9,7 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/CsvExport.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 #include "model/base/NumberText.h"
@@ -86,7 +87,7 @@ DesignSweep::DesignSweep(Workbench& workbench, QWidget* parent) : QWidget(parent
     connect(box, &QDoubleSpinBox::valueChanged, this, [this] { readSettings(true); });
   connect(start_, &QPushButton::clicked, this, &DesignSweep::run);
   connect(save_, &QPushButton::clicked, this, &DesignSweep::saveTable);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::started, this, [this] { start_->setEnabled(false); });
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
@@ -107,9 +108,7 @@ void DesignSweep::build() {
   side->setFixedWidth(kSweepSideWidth_px);
   auto* form = new QFormLayout(side);
   form->setContentsMargins(0, 0, 0, 0);
-  number_ = new QComboBox;
-  number_->setObjectName("sweepNumber");
-  number_->setToolTip(tr("Parameter of the design that varies; all others stay as they are"));
+  number_ = choiceBox("sweepNumber", {}, tr("Parameter of the design that varies; all others stay as they are"));
   from_ = new NumberBox;
   to_ = new NumberBox;
   from_->setObjectName("sweepStart");
@@ -120,25 +119,15 @@ void DesignSweep::build() {
     box->setKeyboardTracking(false);
   }
   number_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  steps_ = new WholeBox;
-  steps_->setObjectName("sweepSteps");
-  steps_->setRange(2, 50);
+  steps_ = wholeBox("sweepSteps", {.low = 2, .high = 50, .whileTyping = true}, {});
   steps_->setValue(7);
-  start_ = new QPushButton(tr("Sweep"));
-  start_->setObjectName("sweepDesign");
-  start_->setToolTip(
+  start_ = pushButton(
+      tr("Sweep"), "sweepDesign",
       tr("Solves the block's response for each value and computes the error bounds of the forces; Esc cancels"));
-  save_ = new QPushButton(tr("Save table..."));
-  save_->setObjectName("saveSweep");
-  save_->setToolTip(tr("Saves both bounds of each value as CSV"));
+  save_ = pushButton(tr("Save table..."), "saveSweep", tr("Saves both bounds of each value as CSV"));
   save_->setEnabled(false);
-  words_ = new QLabel;
-  words_->setObjectName("sweepWords");
-  words_->setWordWrap(true);
-  stale_ = new QLabel;
-  stale_->setObjectName("designSweepState");
-  stale_->setProperty("role", "hint");
-  stale_->setWordWrap(true);
+  words_ = textLabel("sweepWords");
+  stale_ = textLabel("designSweepState", "hint");
   form->addRow(tr("Parameter"), number_);
   form->addRow(tr("From"), from_);
   form->addRow(tr("To"), to_);
@@ -264,9 +253,7 @@ void DesignSweep::run() {
         }
         return [this, found] {
           shown_.reset(); // also where it is what was found before
-          Project next = workbench_.project();
-          next.studies.curve = found;
-          workbench_.edit(tr("Sweep a parameter of the design"), next);
+          workbench_.edit(tr("Sweep a parameter of the design"), [&](Project& next) { next.studies.curve = found; });
         };
       },
       JobRunner::Loss::Work);

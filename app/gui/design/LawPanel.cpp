@@ -1,5 +1,6 @@
 #include "app/gui/design/LawPanel.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
@@ -11,7 +12,7 @@ namespace palp {
 
 namespace {
 
-/// What the circuit of a read-out does, as its choice's tip says it.
+/// What the circuit of a read-out does, as in the tip of its choice.
 QString circuitWords(const SensorDesign& design) {
   const FieldLaw* field = design.field();
   if (field == nullptr) return {};
@@ -22,11 +23,8 @@ QString circuitWords(const SensorDesign& design) {
 
 LawPanel::LawPanel(QWidget* parent) : QGroupBox(resistanceGroup(), parent) {
   auto* form = new QFormLayout(this);
-  readoutWords_ = new WrappedLabel;
-  readoutWords_->setObjectName("readoutWords");
-  readoutWords_->setProperty("role", "hint");
-  warning_ = new WrappedLabel;
-  warning_->setObjectName("lawWarning");
+  readoutWords_ = wrappedLabel("readoutWords", "hint");
+  warning_ = wrappedLabel("lawWarning");
   warning_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   for (WrappedLabel* label : {readoutWords_, warning_}) label->hide();
   for (const DesignField& field : designFields()) {
@@ -46,10 +44,9 @@ LawPanel::LawPanel(QWidget* parent) : QGroupBox(resistanceGroup(), parent) {
 }
 
 void LawPanel::buildPressureLaw(QFormLayout& form) {
-  pressureLaw_ = new QCheckBox(tr("Resistivity falls with pressure (Fig. 1)"));
-  pressureLaw_->setObjectName("pressureLaw");
-  pressureLaw_->setToolTip(
-      tr("g(p) = g (1 + max(p, 0) / p0)^(-n). The initial values are assumed, as the figure prints none."));
+  pressureLaw_ =
+      checkBox(tr("Resistivity falls with pressure (Fig. 1)"), "pressureLaw",
+               tr("g(p) = g (1 + max(p, 0) / p0)^(-n). The initial values are assumed, as the figure prints none."));
   form.addRow(pressureLaw_);
   p0_ = new QLineEdit;
   p0_->setObjectName("p0");
@@ -83,7 +80,7 @@ void LawPanel::display(const SensorDesign& design) {
 
 bool LawPanel::read(SensorDesign& design) {
   bool good = rows_.read(design);
-  follow(design); // also where it cannot be applied: what is wrong stands in one of these rows
+  follow(design); // also where it cannot be applied: the message is in one of these rows
   design.pressureLaw.reset();
   pressureWrong_.clear();
   if (!pressureLaw_->isChecked()) return good;
@@ -120,7 +117,7 @@ void LawPanel::follow(const SensorDesign& design) {
 void LawPanel::warn(const SensorDesign& design) {
   if (warnedOf_ != design) { // of all pairs of electrodes: once a design
     const std::vector<std::string> warnings = designWarnings(design);
-    // It stands under its field, which its key need not say.
+    // It is shown under its field, so the key is not needed.
     warned_ = warnings.empty() ? QString() : tr("Note: %1.").arg(QString::fromStdString(warnings[0]).section(": ", 1));
     warnedOf_ = design;
   }

@@ -20,9 +20,9 @@ public:
 
   /// Emits nothing.
   void display(const SensorDesign& design);
-  /// Sets what is written into the design; false where something is no value.
+  /// Sets what is written into the design; false where something is not a value.
   bool read(SensorDesign& design);
-  /// Says what was wrong at read() and these faults where they belong; in use is the last argument's law.
+  /// Shows what was wrong at read() and these faults where they belong; in use is the last argument's law.
   void say(const std::vector<DesignFault>& faults, const SensorDesign& inUse, bool applied);
 
 signals:
@@ -31,7 +31,7 @@ signals:
 
 private:
   void buildPressureLaw(QFormLayout& form);
-  /// The rows of the law that stands in its box, and what its read-out and its radius mean.
+  /// Shows the rows of the selected law, and what its read-out and its radius mean.
   void follow(const SensorDesign& design);
   void warn(const SensorDesign& design);
 

@@ -4,6 +4,7 @@
 #include "app/gui/design/DesignFields.h"
 #include "app/gui/design/ProgressWords.h"
 #include "app/gui/jobs/TimeLeft.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/study/reports/layout/LayoutSearch.h"
 
@@ -31,23 +32,16 @@ QString intention() {
 LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
   auto* column = new QVBoxLayout(this);
   auto* row = new QHBoxLayout;
-  freedom_ = new QComboBox;
-  freedom_->setObjectName("layoutFreedom");
-  freedom_->addItems({tr("Same positions on every wire"), tr("Positions per wire")});
-  freedom_->setToolTip(tr("Electrodes slide along their wires in steps of 0.05 mm and layers change their height, with "
+  freedom_ = choiceBox("layoutFreedom", {tr("Same positions on every wire"), tr("Positions per wire")},
+                       tr("Electrodes slide along their wires in steps of 0.05 mm and layers change their height, with "
                           "at least 1 mm between electrodes and 0.5 mm of rubber around them"));
-  search_ = new QPushButton(tr("Find a better layout"));
-  search_->setObjectName("findLayout");
-  search_->setToolTip(
+  search_ = pushButton(
+      tr("Find a better layout"), "findLayout",
       tr("Lowers the noise floor of the middle row-wire or, with the conduction field, of all row-wires; Esc cancels"));
-  takeOver_ = new QPushButton(tr("Use this layout"));
-  takeOver_->setObjectName("takeLayout");
-  takeOver_->setToolTip(tr("Makes the found layout the current design; this can be undone"));
+  takeOver_ = pushButton(tr("Use this layout"), "takeLayout",
+                         tr("Makes the found layout the current design; this can be undone"));
   takeOver_->setEnabled(false);
-  row->addWidget(freedom_);
-  row->addWidget(search_);
-  row->addWidget(takeOver_);
-  row->addStretch(1);
+  addTo(*row, {freedom_, search_, takeOver_, Part::stretch()});
   column->addLayout(row);
   words_ = markupLabel(intention());
   words_->setObjectName("layoutWords");
@@ -57,7 +51,7 @@ LayoutFinder::LayoutFinder(Workbench& workbench, QWidget* parent) : QWidget(pare
   column->addStretch(1);
   connect(search_, &QPushButton::clicked, this, &LayoutFinder::search);
   connect(takeOver_, &QPushButton::clicked, this, &LayoutFinder::takeOver);
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &LayoutFinder::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
@@ -124,9 +118,8 @@ void LayoutFinder::search() {
         const bool better = result->after < result->before && found.layout != found.from;
         return [this, found, better] {
           shown_.reset();
-          Project next = workbench_.project();
-          next.studies.found = better ? std::optional(found) : std::nullopt;
-          workbench_.edit(tr("Find a better layout"), next);
+          workbench_.edit(tr("Find a better layout"),
+                          [&](Project& next) { next.studies.found = better ? std::optional(found) : std::nullopt; });
           if (!better)
             words_->setText(
                 tr("%1 layouts were tried; none that can be built is better than the current one.").arg(found.tried));

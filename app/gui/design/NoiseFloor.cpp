@@ -2,6 +2,7 @@
 
 #include "app/gui/design/BoundWords.h"
 #include "app/gui/design/DesignFields.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/study/decoding/NoiseBound.h"
@@ -67,7 +68,7 @@ QString restBoundWords(const RestBounds& bounds, const SensorDesign& design) {
 NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* parent)
     : QGroupBox(tr("Noise floor of the design"), parent), workbench_(workbench), network_(network) {
   auto* column = new QVBoxLayout(this);
-  noise_ = new PercentBox;
+  noise_ = new RatioBox(100, "%");
   noise_->setObjectName("resistanceNoise");
   noise_->setRange(0.00001, 10);
   noise_->setDecimals(5);
@@ -88,15 +89,13 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
   scrolled->setFrameShape(QFrame::NoFrame);
   scrolled->setMinimumHeight(2 * words_->fontMetrics().lineSpacing());
   column->addWidget(scrolled, 1);
-  samples_ = new QPushButton(tr("Generate samples"));
-  samples_->setObjectName("floorSamples");
-  samples_->setToolTip(tr(
-      "Generates samples as on the Network scene; the bound follows from how the resistances change with the force"));
+  samples_ = pushButton(tr("Generate samples"), "floorSamples",
+                        tr("Generates samples as on the Network scene; the bound follows from how the resistances "
+                           "change with the force"));
   column->addWidget(samples_);
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
-    Project next = workbench_.project();
-    next.view.resistanceNoise = percent / 100;
-    workbench_.edit(tr("Change the noise of the resistances"), next);
+    workbench_.edit(tr("Change the noise of the resistances"),
+                    [&](Project& next) { next.view.resistanceNoise = percent / 100; });
   });
   connect(samples_, &QPushButton::clicked, this,
           [this] { network_.generate(workbench_.project().samples, workbench_.project().mesh); });
@@ -104,7 +103,7 @@ NoiseFloor::NoiseFloor(Workbench& workbench, NetworkSession& network, QWidget* p
     boundedFor_.reset();
     display();
   });
-  // What was cancelled is asked for again when the page is next brought up to date.
+  // What was cancelled is requested again when the page is next updated.
   connect(&bounding_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled) return;
     forget();

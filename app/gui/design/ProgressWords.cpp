@@ -7,7 +7,7 @@
 
 namespace palp {
 
-void sayProgress(JobRunner& runner, QLabel& label) {
+void showProgress(JobRunner& runner, QLabel& label) {
   QObject::connect(&runner, &JobRunner::progressed, &label, [&label](double share, const QString& what) {
     const QString words = share < 0 ? QObject::tr("Computing: %1").arg(what)
                                     : QObject::tr("Computing, %1 %: %2").arg(qRound(100 * share)).arg(what);

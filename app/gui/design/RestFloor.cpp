@@ -58,7 +58,7 @@ DesignBounds boundsAtRest(const RestFloor& floor, double relativeNoise) {
 
 RestBounds restBounds(const RestFloor& floor, double relativeNoise) {
   SensorDesign pairs = floor.design;
-  pairs.resistance = PairsLaw{}; // its rate is no matter in ln R
+  pairs.resistance = PairsLaw{}; // its rate does not matter in ln R
   RestBounds bounds{designBounds(pairs, *floor.block, relativeNoise), {}};
   for (const auto& [readout, name] : kReadouts.all())
     bounds.readouts.push_back(fieldBounds(floor, readout, relativeNoise));

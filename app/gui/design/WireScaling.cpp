@@ -21,7 +21,7 @@ void scale(std::vector<double>& places, double factor) {
   const bool even = places.size() > 2 && evenlySpaced(places);
   for (double& place : places) place = rounded(factor * place);
   if (!even) return;
-  // Rounded each, they would be uneven by a digit: counted from the second, as a list with "..." is read.
+  // Rounded separately, their spacing would differ by a digit: counted from the second, as a list with "..." is read.
   const double start = places[1], step = places[1] - places[0];
   for (std::size_t k = 2; k + 1 < places.size(); ++k) places[k] = rounded(start + static_cast<double>(k - 1) * step);
 }

@@ -70,7 +70,8 @@ Autosave::Autosave(Workbench& workbench, NetworkSession& network, MainWindow& wi
     recordings_ = files;
     attempt([this] { keepRecordings(); });
   });
-  callLater(*this, [this] { attempt([this] { makeFolder(); }); }); // said in the window before there is work to lose
+  callLater(*this,
+            [this] { attempt([this] { makeFolder(); }); }); // reported in the window before there is work to lose
 }
 
 Autosave::~Autosave() {
@@ -158,7 +159,7 @@ void Autosave::leaveFolder() {
 }
 
 void Autosave::changed() {
-  if (!timer_.isActive()) timer_.start(kWait_ms); // not anew at each change: work that goes on is kept as well
+  if (!timer_.isActive()) timer_.start(kWait_ms); // not restarted at each change: continuous work is saved as well
 }
 
 void Autosave::attempt(const std::function<void()>& act) {

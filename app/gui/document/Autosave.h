@@ -34,7 +34,7 @@ struct LeftWork {
 /// Keeps what is not saved in a folder of its own, some seconds old at most, while the window is open: the project, the
 /// samples and the network, and the names of the files that are being recorded, which grow in their place
 /// (resources/docs/formats.md). Each project has a new folder; a window that ends as it should leaves none. Where
-/// nothing can be kept, that is said, and tried again at the next change.
+/// nothing can be saved, that is reported, and tried again at the next change.
 class Autosave : public QObject {
   Q_OBJECT
 

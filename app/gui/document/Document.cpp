@@ -35,7 +35,7 @@ void remember(const QString& file) {
   settings.setValue(kRecentKey, files.mid(0, kRecentFiles));
 }
 
-/// Where the samples and the network of a project lie: NAME.palp beside NAME.json.
+/// The folder of the samples and the network of a project: NAME.palp next to NAME.json.
 std::filesystem::path resultsFolder(const QString& file) {
   return std::filesystem::path(file.toStdString()).replace_extension(".palp");
 }
@@ -52,7 +52,7 @@ Document::Document(MainWindow& window, Workbench& workbench, NetworkSession& net
     network_.clear(); // what the other project held
     ours_ = std::make_shared<std::set<std::filesystem::path>>();
     openResults();
-    QTimer::singleShot(0, this, returnMemory); // when the views have let go of it
+    QTimer::singleShot(0, this, returnMemory); // when the views have released it
   });
   connect(&network, &NetworkSession::saved, this, [this](const std::vector<std::filesystem::path>& files) {
     QStringList names;
@@ -131,7 +131,7 @@ QString Document::unsavedWords() const {
 }
 
 bool Document::mayLeave(const Leaving& leaving) {
-  if (leaving_) return false; // it is asked already, or what was answered is being done
+  if (leaving_) return false; // the question is open, or its answer is being carried out
   const QScopedValueRollback<bool> asking(leaving_, true);
   finishWriting();
   const QStringList losses = workbench_.lossQuestion().losses(leaving);
@@ -226,7 +226,7 @@ void Document::beganWith(const QString& file) {
   openResults();
 }
 
-/// Samples and network that lie beside the project.
+/// Samples and network next to the project.
 void Document::openResults() {
   const QString& file = workbench_.file();
   if (file.isEmpty()) return;
@@ -306,7 +306,7 @@ void Document::resultsSaved(const NetworkResults& results) {
 }
 
 void Document::recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
-                       const std::function<void(bool whole)>& done) {
+                       const std::function<void(bool complete)>& done) {
   const Project recovered = parseProject(project, tr("the recovered project"), exampleProject());
   replaceByRecovered(recovered, file);
   window_.showScene(QString::fromStdString(recovered.view.scene));

@@ -18,7 +18,7 @@ class MainWindow;
 class Workbench;
 struct Leaving;
 
-/// The project as a file of the user's, its samples and network in a folder beside it (NAME.palp): opens and saves
+/// The project as a file of the user's, its samples and network in a folder next to it (NAME.palp): opens and saves
 /// them, asks before unsaved work would be lost, and keeps the window's title.
 class Document : public QObject {
   Q_OBJECT
@@ -36,7 +36,7 @@ public:
   /// about all.
   bool mayLeave(const Leaving& leaving);
   /// A file of ours: a design or a project in place of what is open (asks first), samples and networks in the Network
-  /// scene. Says why where it cannot be opened, and keeps what was there.
+  /// scene. Where it cannot be opened, reports why and keeps the present project.
   void open(const QString& file);
   /// The same for several: all of them samples.
   void open(const QStringList& files);
@@ -46,16 +46,17 @@ public:
   void beganWith(const QString& file);
   /// The paper's design; asks first.
   void startAnew();
-  /// A project that came with the program, as one that has no file yet; asks first. Says why where it cannot be opened.
+  /// A project that came with the program, as one that has no file yet; asks first. Reports why where it cannot be
+  /// opened.
   void openExample(const QString& file, const QString& title);
   /// In its file, or in one that the user chooses. False where it was not saved.
   bool save();
   bool saveAs();
   /// What another window has left, as unsaved work on the project in `file` (empty: in none yet); `done` once it is
-  /// open; where some of it cannot be, that is said, and it is not `whole`. Undo leads to what the file
+  /// open; where some of it cannot be, that is reported, and its argument is false. Undo leads to what the file
   /// holds, where it can be read. Throws Error.
   void recover(const QByteArray& project, const QString& file, const std::filesystem::path& results,
-               const std::function<void(bool whole)>& done);
+               const std::function<void(bool complete)>& done);
   /// Files that were opened or saved, the newest first.
   [[nodiscard]] static QStringList recent();
 
@@ -67,14 +68,14 @@ private:
   void openResults();
   void replaceByRecovered(const Project& recovered, const QString& file);
   bool mayReplace(const Project& next);
-  /// In words; there is something.
+  /// As text; not empty.
   [[nodiscard]] QString unsavedWords() const;
   bool write(const QString& file);
   /// Waits until what was ordered to be saved is saved, or has failed.
   void finishWriting();
-  /// Says what could not be opened, and that it stays.
+  /// Reports what could not be opened, and that it is kept.
   void sayProblems(const OpenedResults& opened);
-  /// These samples and this network stand in a file.
+  /// A file contains these samples and this network.
   void resultsSaved(const NetworkResults& results);
   void showTitle();
 
@@ -82,10 +83,10 @@ private:
   Workbench& workbench_;
   NetworkSession& network_;
   ResultsMark saved_;
-  /// Of the files beside the project: whose content was opened or written here. Read by the writer; another project has
-  /// another one.
+  /// Of the files next to the project: whose content was opened or written here. Read by the writer; another project
+  /// has another one.
   std::shared_ptr<std::set<std::filesystem::path>> ours_ = std::make_shared<std::set<std::filesystem::path>>();
-  bool leaving_ = false; ///< the question is asked, or what it ordered is being saved
+  bool leaving_ = false; ///< the question is open, or its answer is being saved
 };
 
 } // namespace palp

@@ -18,7 +18,7 @@ QString momentWords(const QDateTime& moment) {
   return QLocale().toString(moment, QLocale::ShortFormat);
 }
 
-/// What is left of a recording that was being written.
+/// The rest of a recording that was being written.
 QString recordingWords(const QString& file) {
   const QFileInfo info(file);
   if (!info.exists()) return QObject::tr("%1: the file no longer exists.").arg(file);
@@ -32,7 +32,7 @@ QString recordingWords(const QString& file) {
 }
 
 /// Without waiting for an answer.
-void sayCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
+void reportCutRecordings(MainWindow& window, const std::vector<LeftWork>& left) {
   QStringList words;
   for (const LeftWork& work : left) {
     for (const QString& file : work.recordings) words << recordingWords(file);
@@ -68,8 +68,9 @@ RecoveryWish askAbout(MainWindow& window, const LeftWork& work) {
 
 void recoverWork(MainWindow& window, Autosave& autosave, const LeftWork& work) {
   try {
-    window.document().recover(Autosave::project(work), work.file, Autosave::results(work).toStdString(),
-                              [&autosave, work](bool whole) { whole ? autosave.takeOver(work) : autosave.hold(work); });
+    window.document().recover(
+        Autosave::project(work), work.file, Autosave::results(work).toStdString(),
+        [&autosave, work](bool complete) { complete ? autosave.takeOver(work) : autosave.hold(work); });
   } catch (const std::exception& error) {
     QMessageBox::warning(&window, QObject::tr("Cannot recover"),
                          QObject::tr("%1\n\nIt stays in %2.").arg(QString(error.what()), work.folder));
@@ -80,7 +81,7 @@ void recoverWork(MainWindow& window, Autosave& autosave, const LeftWork& work) {
 
 void offerRecovery(MainWindow& window, Autosave& autosave, const QString& root) {
   const std::vector<LeftWork> left = Autosave::left(root); // no other window offers any of it meanwhile
-  sayCutRecordings(window, left);
+  reportCutRecordings(window, left);
   for (const LeftWork& work : left) {
     const RecoveryWish wish = work.project ? askAbout(window, work) : RecoveryWish::Discard;
     if (wish == RecoveryWish::Discard) Autosave::forget(work);

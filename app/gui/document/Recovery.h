@@ -7,7 +7,7 @@ namespace palp {
 class Autosave;
 class MainWindow;
 
-/// Says which recordings were cut by windows that did not end well and left that in `root`, and asks what shall become
+/// Reports which recordings were cut when windows crashed and left a note in `root`, and asks what shall become
 /// of the work that they left. What is recovered is `autosave`'s from then on.
 void offerRecovery(MainWindow& window, Autosave& autosave, const QString& root);
 

@@ -8,7 +8,7 @@
 
 namespace palp {
 
-/// Which samples, network and list stand in files: told from others, but not kept in memory for it.
+/// Which samples, network and list are saved in files: identifies them without keeping them in memory.
 class ResultsMark {
 public:
   void set(const NetworkResults& results) {
@@ -21,7 +21,7 @@ public:
   }
 
 private:
-  /// One that is gone is none of those that are there.
+  /// A deleted one differs from all existing ones.
   template <class T> static bool same(const std::weak_ptr<T>& one, const std::shared_ptr<T>& other) {
     return !one.owner_before(other) && !other.owner_before(one);
   }

@@ -16,7 +16,7 @@ void ExportJob::write(const QString& file, Making make) {
         progress.set(-1, title.toStdString());
         const std::string content = make(stop);
         throwIfStopped(stop);
-        writeFile(file.toStdString(), content, true); // the dialog has asked
+        writeFile(file.toStdString(), content, true); // confirmed in the dialog
         return [this, file] { emit done(tr("Wrote %1.").arg(file)); };
       },
       JobRunner::Loss::Work);

@@ -6,7 +6,7 @@
 
 namespace palp {
 
-/// Writes files in the background, one after the other: the whole content is made first, then put into its place at
+/// Writes files in the background, one after the other: the complete content is made first, then moved to its path in
 /// once, so that a stop or a failure leaves nothing half-written.
 class ExportJob : public QObject {
   Q_OBJECT

@@ -102,7 +102,7 @@ void FieldTouch::want(const Touch& touch, double loadFraction) {
                     const Inputs end = inputsOf(touch, touch.solution()->reachedLoadFraction);
                     while (known_.size() > kKnownStates) {
                       auto oldest = std::prev(known_.end());
-                      if (oldest->inputs == end) --oldest; // its colours hold on the whole load path
+                      if (oldest->inputs == end) --oldest; // its colours hold on the complete load path
                       known_.erase(oldest);
                     }
                     kept_ = Kept{touch, field};
@@ -132,7 +132,7 @@ void FieldTouch::retry() {
   if (problem_.isEmpty()) return;
   problem_.clear();
   wanted_.reset();
-  emit changed(); // the scene that shows it wants it again
+  emit changed(); // the scene that shows it requests it again
 }
 
 void FieldTouch::leave() {

@@ -15,7 +15,7 @@ namespace palp {
 
 class ConductionField;
 
-/// What the conduction field of one state says, by all read-outs.
+/// The resistances of one state by the conduction field, for all read-outs.
 struct FieldFound {
   TerminalNetwork network;
   std::vector<TouchResistances> read; ///< in the order of Readout
@@ -46,11 +46,11 @@ public:
   [[nodiscard]] std::optional<TouchResistances> of(const Touch& touch, double loadFraction) const;
   /// By all read-outs; null before it is there.
   [[nodiscard]] std::shared_ptr<const FieldFound> found(const Touch& touch, double loadFraction) const;
-  /// The field behind it, with what it has found at rest; null where it was given back.
+  /// The field behind it, with its results at rest; null where it was released.
   [[nodiscard]] std::shared_ptr<const ConductionField> field(const Touch& touch) const;
   /// Why there is none; empty while it is computed.
   [[nodiscard]] const QString& problem() const { return problem_; }
-  /// What was stopped or failed is computed where it is wanted again.
+  /// What was cancelled or failed is computed at the next request.
   void retry();
   /// Nothing is wanted any more: what runs is stopped.
   void leave();
@@ -84,7 +84,7 @@ private:
   [[nodiscard]] std::shared_ptr<const FieldFound> find(const Inputs& inputs) const;
 
   JobRunner runner_;
-  QTimer idle_; ///< then what only another load on the same block needs is given back
+  QTimer idle_; ///< then memory that only another load on the same block needs is released
   std::optional<Inputs> wanted_;
   std::deque<Known> known_; ///< the newest first
   std::optional<Kept> kept_;

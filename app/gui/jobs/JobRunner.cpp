@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kReportEvery_ms = 60;
 
-/// Runs `act`; what it threw, in words, else nothing. Whatever is thrown ends here: there is nobody above.
+/// Runs `act`; returns the message of its exception, or an empty text. Every exception ends here, in its thread.
 template <class Act> QString failureOf(const Act& act, bool& cancelled) {
   try {
     act();
-  } catch (const Cancelled&) { // asked for, no failure
+  } catch (const Cancelled&) { // requested, not a failure
     cancelled = true;
   } catch (...) {
     return QString::fromStdString(failureInWords(std::current_exception()));

@@ -14,7 +14,7 @@
 
 namespace palp {
 
-/// Where a job stands; written by the job, read by the window's timer.
+/// The progress of a job; written by the job, read by the window's timer.
 class JobProgress {
 public:
   /// Share 0..1 of the work, or below 0 where it is not known, and what is being done. From any thread.

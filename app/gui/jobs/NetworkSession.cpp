@@ -86,7 +86,7 @@ void NetworkSession::show(NetworkResults results) {
     results.kept = shown_.kept;
     results.away = shown_.away;
   }
-  results.takenAway.insert(shown_.takenAway.begin(), shown_.takenAway.end());
+  results.removed.insert(shown_.removed.begin(), shown_.removed.end());
   if (results.kept.empty() && results.fit) results.kept = {results.fit};
   if (shown_.samples) past_.push_front(std::move(shown_));
   std::erase_if(past_, [&](const NetworkResults& past) { return past.samples == results.samples; }); // shown again

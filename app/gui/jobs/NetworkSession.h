@@ -38,7 +38,7 @@ struct NetworkSamples {
   std::optional<MeshOptions> mesh = {}; ///< that they were solved on; none: they were opened
 };
 
-/// A trained decoder and what it says about the test samples.
+/// A trained decoder and its predictions of the test samples.
 struct NetworkFit {
   NetworkSettings settings;
   Decoder decoder;
@@ -77,8 +77,8 @@ struct NetworkResults {
   std::shared_ptr<const NetworkFit> fit;
   std::shared_ptr<const NetworkFit> before;            ///< that was shown before it; to compare with
   std::vector<std::shared_ptr<const NetworkFit>> kept; ///< that can be gone back to, the newest first
-  std::set<QDateTime> takenAway;                       ///< when the networks were made that were taken off that list
-  /// Those that were taken off it, of the last time last, each with the place where it stood; not written to files.
+  std::set<QDateTime> removed;                         ///< when the networks were made that were taken off that list
+  /// Networks that were removed from it, the last ones last, each with its index; not written to files.
   std::vector<std::vector<std::pair<std::size_t, std::shared_ptr<const NetworkFit>>>> away;
   std::vector<SweepPoint> sweep;
   NetworkSettings sweepSettings;
@@ -90,7 +90,7 @@ struct NetworkResults {
   [[nodiscard]] QStringList listed() const;
 };
 
-/// The samples and networks behind the Network scene: made in the background, only when asked. They stay with the
+/// The samples and networks behind the Network scene: made in the background, only on request. They stay with the
 /// design that they were made of: another design leaves them to be looked at as those of an earlier one until it has
 /// samples of its own, and the design they belong to brings them back.
 class NetworkSession : public QObject {
@@ -104,7 +104,7 @@ public:
   void setDesign(const SensorDesign& design);
   /// Gives everything back that was made of any design.
   void clear();
-  /// Goes on where the same samples were stopped before.
+  /// Continues where the same samples were stopped before.
   void generate(const SampleSettings& samples, const MeshOptions& mesh);
   /// The list keeps every network that was trained, those of equal settings and results once. `slide`: the movement
   /// of a slider that it follows, of which the list keeps the last network alone; empty: of none.
@@ -125,7 +125,7 @@ public:
   /// The network that is shown, which must be there; `then` is called when it is written.
   void saveNetwork(const std::filesystem::path& file, const std::function<void()>& then = {});
   /// Samples and networks in a folder (saveResults in ResultFiles.h); then `saved` is called with them and with what is
-  /// to be said. `ours` is looked at when the orders before this one are done, and changed by `saved` only.
+  /// to be reported. `ours` is looked at when the orders before this one are done, and changed by `saved` only.
   void saveResults(const std::filesystem::path& folder,
                    const std::shared_ptr<const std::set<std::filesystem::path>>& ours,
                    const std::function<void(const NetworkResults&, const QStringList&)>& saved);
@@ -137,7 +137,7 @@ public:
   [[nodiscard]] bool generating() const;
   [[nodiscard]] bool working() const { return runner_.running(); }
 
-  /// What lies beside the project is being opened.
+  /// The results next to the project file are being opened.
   [[nodiscard]] bool openingResults() const { return openingResults_; }
 
   /// The project's design now.
@@ -150,23 +150,23 @@ public:
   [[nodiscard]] std::shared_ptr<const NetworkSamples> sharedSamples() const { return shown_.samples; }
   [[nodiscard]] const NetworkFit* fit() const { return shown_.fit.get(); }
   [[nodiscard]] std::shared_ptr<const NetworkFit> sharedFit() const { return shown_.fit; }
-  /// The fit is of the samples that are there, and they are of the design as it is now.
+  /// The fit is of the loaded samples, and these are of the present design.
   [[nodiscard]] bool fitIsCurrent() const;
   /// Networks of this design that can be gone back to, the newest first.
   [[nodiscard]] const std::vector<std::shared_ptr<const NetworkFit>>& kept() const { return shown_.kept; }
   /// The network that was shown before the one that is now, of the same samples; null where none was.
   [[nodiscard]] const NetworkFit* before() const { return shown_.before.get(); }
-  /// Shows one of them again, tried on the samples that are there now.
+  /// Shows one of them again, evaluated on the loaded samples.
   void goBackTo(std::size_t kept);
-  /// Shows the newest of them that was trained with these settings on the samples that are there, where there is one.
+  /// Shows the newest of them that was trained with these settings on the loaded samples, where there is one.
   void goBackTo(const NetworkSettings& settings);
   void takeAway(const std::set<std::size_t>& kept);
-  /// Those that were taken away last, where they were.
+  /// Restores the networks that were removed last, at their indices.
   void bringBack();
   [[nodiscard]] bool canBringBack() const { return !shown_.away.empty(); }
   /// Calls one of them by a name; empty: takes its name away.
   void rename(std::size_t kept, const QString& name);
-  /// So many stay in the list, and all that have a name.
+  /// Number of networks that stay in the list, apart from those with a name.
   static constexpr std::size_t kKeptNetworks = 50;
   [[nodiscard]] const std::vector<SweepPoint>& sweepPoints() const { return shown_.sweep; }
   [[nodiscard]] const NetworkSettings& sweepSettings() const { return shown_.sweepSettings; }
@@ -176,7 +176,7 @@ public:
   [[nodiscard]] std::array<std::size_t, 2> stoppedAt() const;
   [[nodiscard]] const StageLog& stages() const { return stages_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
-  /// Writes files beside what runs.
+  /// Writes files while other jobs run.
   [[nodiscard]] JobRunner& writer() { return writer_; }
 
 signals:
@@ -189,13 +189,13 @@ signals:
   void note(const QString& sentence);
   /// Samples of a file are those that are shown now, new ones or some that were here before.
   void samplesOpened(const QString& file);
-  /// Samples or a network stand in these files now.
+  /// These files now contain samples or a network.
   void saved(const std::vector<std::filesystem::path>& files);
   /// Work begins that needs hundreds of megabytes.
   void memoryNeeded();
 
 private:
-  /// Says that samples are being made, where they are: nothing else takes their place.
+  /// Reports that samples are being made, and returns true, where they are: nothing else starts then.
   bool waitsForSamples();
   /// What the job has finished, drained by the window.
   struct Rows {

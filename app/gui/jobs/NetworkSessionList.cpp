@@ -41,7 +41,7 @@ void NetworkSession::take(const std::shared_ptr<NetworkFit>& fit, const QString&
   }
   // The file that it is saved in is named by that time.
   const auto taken = [&](const auto& other) { return other->made == fit->made; };
-  while (shown_.takenAway.contains(fit->made) || std::any_of(kept.begin(), kept.end(), taken))
+  while (shown_.removed.contains(fit->made) || std::any_of(kept.begin(), kept.end(), taken))
     fit->made = fit->made.addMSecs(1);
   if (!slides) shown_.before = shown_.fit;
   shown_.fit = fit;
@@ -93,7 +93,7 @@ void NetworkSession::goBackTo(const NetworkSettings& settings) {
 
 void NetworkSession::dropKept(std::size_t kept) {
   const auto place = shown_.kept.begin() + static_cast<std::ptrdiff_t>(kept);
-  shown_.takenAway.insert((*place)->made);
+  shown_.removed.insert((*place)->made);
   shown_.kept.erase(place);
 }
 
@@ -111,7 +111,7 @@ void NetworkSession::bringBack() {
   auto& kept = shown_.kept;
   for (const auto& [place, fit] : shown_.away.back()) { // the first place first: then the others are right
     kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(std::min(place, kept.size())), fit);
-    shown_.takenAway.erase(fit->made);
+    shown_.removed.erase(fit->made);
   }
   shown_.away.pop_back();
   lastSlide_.clear();

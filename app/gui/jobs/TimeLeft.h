@@ -10,7 +10,7 @@ namespace palp {
 /// "8 s", "40 s", "2.5 min": at most a sixth away from the number.
 QString roughly(double seconds);
 
-/// What is left of work whose steps take about as long each: as long as those that were seen took. What comes between
+/// Remaining time of work whose steps take about as long each: as long as the measured ones. What comes between
 /// (meshing, factorising) does not count as steps. The time now is handed in, in seconds since any moment.
 class TimeLeft {
 public:
@@ -26,7 +26,7 @@ private:
   double from_ = 0, since_s_ = 0;
 };
 
-/// What is left of work that says its share of the time, as it went until now.
+/// Remaining time of work that reports its share of the time, at its pace until now.
 class LeftOfShares {
 public:
   LeftOfShares() { clock_.start(); }

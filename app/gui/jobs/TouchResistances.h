@@ -13,7 +13,7 @@ struct TouchResistances {
   Eigen::MatrixXd rest_ohm, now_ohm;
 };
 
-/// By Eq. (1); empty where the design's law is another, of which whyNoResistances() says where it is shown.
+/// By Eq. (1); nullopt where the design has another law: whyNoResistances() names the scene that shows it.
 std::optional<TouchResistances> resistancesOf(const SensorDesign& design, const ElectrodeDisplacements& electrodes);
 
 /// Empty by Eq. (1).

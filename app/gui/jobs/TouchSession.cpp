@@ -116,7 +116,7 @@ void TouchSession::run() {
   }
   // This replaces it.
   scrubbing_.reset();
-  // A new problem wants the memory of the old one's factor.
+  // A new problem needs the memory of the old one's factor.
   if (wanted_.problem() == nullptr) rest();
   trace_ = std::make_shared<NewtonTrace>();
   computed_ = revision_;
@@ -149,7 +149,7 @@ void TouchSession::run() {
 }
 
 void TouchSession::take(const Touch& touch, std::shared_ptr<const NodalFields> fields, quint64 revision) {
-  if (revision != revision_) return; // whoever changed the inputs, or needed them since, has asked for the next run
+  if (revision != revision_) return; // changed or requested since: the next run is already started
   const bool meshChanged = touch.mesh() != shown_.mesh();
   wanted_ = touch;
   shown_ = touch;

@@ -73,14 +73,14 @@ public:
   [[nodiscard]] int scrubbingTo() const { return scrubbing_.value_or(place_); }
   /// Estimates the discretisation error of what is shown; the answer comes with errorEstimated().
   void estimateError();
-  /// Gives back the memory that only another solve needs; called when nothing was computed for a while.
+  /// Releases the memory that only another solve needs; called when nothing was computed for a while.
   void rest();
 
 signals:
   /// Another mesh, solution or place of the load path is shown.
   void changed(bool meshChanged);
   void newtonStepped();
-  /// Not a number where there is no estimate; `method` says why.
+  /// Not a number where there is no estimate; `method` then has the reason.
   void errorEstimated(double relative, const QString& method);
 
 private:
@@ -111,7 +111,7 @@ private:
   std::shared_ptr<const NodalFields> endFields_;
   std::shared_ptr<const std::vector<LoadPathState>> path_; ///< null until it is first scrubbed through
   int place_ = -1;
-  std::optional<int> scrubbing_; ///< asked for and not there yet
+  std::optional<int> scrubbing_; ///< requested and not available yet
   StageLog stages_;
 };
 

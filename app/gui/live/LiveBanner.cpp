@@ -2,6 +2,7 @@
 
 #include "app/gui/live/LiveNews.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QApplication>
 #include <QClipboard>
@@ -24,7 +25,7 @@ struct WayOnward {
 
 WayOnward wayOnward(const LiveHost& host, const LiveFrame& frame) {
   const bool goesOn = frame.forces.valid && frame.forces.missingReadings > 0;
-  if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.decoder()) return {};
+  if (frame.faults.empty() || (frame.forces.valid && !goesOn) || !host.network().decoder()) return {};
   if (!frame.frame.complete)
     return {goesOn ? QObject::tr("Forces continue without it, with larger deviations.") : QString(), {}};
   const auto rows = static_cast<int>(frame.frame.rowExpected.size());
@@ -90,32 +91,23 @@ QString wordsOf(const LiveHost& host, const QString& alarm) {
 LiveBanner::LiveBanner(QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
-  words_ = new QLabel;
-  words_->setObjectName("liveBanner");
-  words_->setProperty("role", "banner");
-  words_->setWordWrap(true);
+  words_ = textLabel("liveBanner", "banner");
   words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  copyRemedy_ = new QPushButton(tr("Copy the command"));
-  copyRemedy_->setObjectName("copyRemedy");
-  copyRemedy_->setToolTip(tr("Copies the command that installs the udev rule"));
-  otherRows_ = new QPushButton(tr("Train without it..."));
-  otherRows_->setObjectName("otherRows");
-  otherRows_->setToolTip(tr("Opens the Network scene with input and row-wires set for a network that reads only intact "
-                            "row-wires; generate samples there, train, and press Use in Live"));
+  copyRemedy_ = pushButton(tr("Copy the command"), "copyRemedy", tr("Copies the command that installs the udev rule"));
+  otherRows_ =
+      pushButton(tr("Train without it..."), "otherRows",
+                 tr("Opens the Network scene with input and row-wires set for a network that reads only intact "
+                    "row-wires; generate samples there, train, and press Use in Live"));
   row->addWidget(words_, 1);
-  tare_ = new QPushButton(tr("Tare"));
-  tare_->setObjectName("tareDue");
-  tare_->setToolTip(tr("Takes the present readings as rest"));
-  row->addWidget(otherRows_);
-  row->addWidget(tare_);
-  row->addWidget(copyRemedy_);
+  tare_ = pushButton(tr("Tare"), "tareDue", tr("Takes the present readings as rest"));
+  addTo(*row, {otherRows_, tare_, copyRemedy_});
   connect(copyRemedy_, &QPushButton::clicked, this, [] {
     const QString remedy = QString::fromStdString(permissionRemedy());
     QApplication::clipboard()->setText(remedy.section(": ", 1).section(" (", 0, 0));
   });
   connect(otherRows_, &QPushButton::clicked, this,
-          [this] { emit networkOfRowsAsked(otherRows_->property("rows").toString()); });
-  connect(tare_, &QPushButton::clicked, this, &LiveBanner::tareAsked);
+          [this] { emit networkOfRowsRequested(otherRows_->property("rows").toString()); });
+  connect(tare_, &QPushButton::clicked, this, &LiveBanner::tareRequested);
   keepRoom(*this);
   hide();
 }

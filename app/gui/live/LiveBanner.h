@@ -20,9 +20,9 @@ public:
   void display(const LiveHost& host, const QString& alarm);
 
 signals:
-  void tareAsked();
-  /// A network of these row-wires, the whole ones, is wanted: "0,1,2,4".
-  void networkOfRowsAsked(const QString& rows);
+  void tareRequested();
+  /// A network of these row-wires, the intact ones, is needed: "0,1,2,4".
+  void networkOfRowsRequested(const QString& rows);
 
 private:
   QLabel* words_ = nullptr;

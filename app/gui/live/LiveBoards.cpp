@@ -2,6 +2,7 @@
 
 #include "app/gui/widgets/AccessibleNames.h"
 #include "app/gui/widgets/ElidedLabel.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QHBoxLayout>
@@ -69,17 +70,13 @@ void LiveBoards::build() {
   cell.title = new ElidedLabel;
   cell.title->setObjectName("boardTitle");
   cell.title->setProperty("role", "title");
-  auto* away = new QPushButton(tr("Close board"));
-  away->setObjectName("takeBoardAway");
-  away->setToolTip(tr("Closes this board's view; its recordings stay in their files"));
-  auto* panelShown = new QPushButton(tr("Panel"));
-  panelShown->setObjectName("boardPanel");
+  auto* away = pushButton(tr("Close board"), "takeBoardAway",
+                          tr("Closes this board's view; its recordings stay in their files"));
+  auto* panelShown =
+      pushButton(tr("Panel"), "boardPanel", tr("Shows or hides this board's panel with source, tare and recording"));
   panelShown->setCheckable(true);
   panelShown->setChecked(true);
-  panelShown->setToolTip(tr("Shows or hides this board's panel with source, tare and recording"));
-  head->addWidget(cell.title, 1);
-  head->addWidget(panelShown);
-  head->addWidget(away);
+  addTo(*head, {{cell.title, 1}, panelShown, away});
   cell.page = new LivePage(workbench_, boards_->accessOf(readers_++), board);
   cell.page->setObjectName("board");
   cell.page->setTheme(theme_);
@@ -100,8 +97,8 @@ void LiveBoards::build() {
     connect(panel, &SidePanel::foldedNow, panelShown, [panelShown](bool folded) { panelShown->setChecked(!folded); });
   }
   connect(away, &QPushButton::clicked, this, [this, page] { remove(page); });
-  connect(page, &LivePage::anotherAsked, this, &LiveBoards::add);
-  connect(page, &LivePage::sceneAsked, this, &LiveBoards::sceneAsked);
+  connect(page, &LivePage::anotherRequested, this, &LiveBoards::add);
+  connect(page, &LivePage::sceneRequested, this, &LiveBoards::sceneRequested);
   connect(page, &LivePage::looked, this, [this] {
     if (cells_.size() > 1 && isVisible()) displayTitles();
     tellRecordings();
@@ -116,7 +113,7 @@ void LiveBoards::build() {
   row_->addWidget(cell.box);
 }
 
-/// The board's place, name and state stand over its page where there are several.
+/// The board's number, name and state are shown over its page where there are several.
 void LiveBoards::arrange() {
   const bool several = cells_.size() > 1;
   for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -156,7 +153,7 @@ LiveSettings LiveBoards::settingsOfAnother() const {
   settings.device.clear();
   settings.frames.reset(); // they are of one board
   settings.calibrated.reset();
-  settings.simulation.openRow = settings.simulation.openColumn = -1; // what is broken of one is whole of another
+  settings.simulation.openRow = settings.simulation.openColumn = -1; // a wire broken on one board is intact on another
   settings.simulation.dropEvery = 0;
   for (std::size_t k = 0; k < cells_.size(); ++k)
     settings.simulation.seed = std::max(settings.simulation.seed, workbench_.project().board(k).simulation.seed + 1);
@@ -178,9 +175,7 @@ LiveSettings LiveBoards::settingsOfAnother() const {
 
 void LiveBoards::add() {
   if (cells_.size() >= Project::kMostBoards) return;
-  Project next = workbench_.project();
-  next.moreBoards.push_back(settingsOfAnother());
-  workbench_.edit(tr("Add a board"), next);
+  workbench_.edit(tr("Add a board"), [&](Project& next) { next.moreBoards.push_back(settingsOfAnother()); });
   // Where it is narrow the views of all count more than a panel, which a button over each board brings back.
   const bool narrow = width() < kBoardWithPanel_px * static_cast<int>(cells_.size());
   for (const Cell& cell : cells_)

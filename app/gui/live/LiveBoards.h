@@ -12,7 +12,7 @@ class QSplitter;
 namespace palp {
 
 /// The Live scene: one board, or several side by side, each with a page, a session and settings of its own. A board
-/// costs nothing before the scene is seen, and nothing after it is taken away.
+/// costs nothing before the scene is seen, and nothing after it is closed.
 class LiveBoards : public Scene {
   Q_OBJECT
 
@@ -28,18 +28,18 @@ public:
   /// There is one at least.
   [[nodiscard]] LivePage& page(std::size_t board = 0) const { return *cells_[board].page; }
   [[nodiscard]] std::size_t count() const { return cells_.size(); }
-  /// What is told of each board in every scene, with its number where there are several.
+  /// The status of each board for all scenes, with its number where there are several.
   [[nodiscard]] std::vector<LiveLampState> lamps() const;
   /// Files that are being recorded.
   [[nodiscard]] QStringList recordings() const;
 
 signals:
   void message(const QString& sentence);
-  void sceneAsked(const QString& name);
+  void sceneRequested(const QString& name);
   /// lamps() may say something else.
   void looked();
   void recordingsChanged(const QStringList& files);
-  /// A board came or went: runners() says something else.
+  /// A board was added or closed: runners() has changed.
   void countChanged();
 
 protected:
@@ -67,9 +67,9 @@ private:
   std::shared_ptr<SharedBoards> boards_;
   QSplitter* row_ = nullptr;
   std::vector<Cell> cells_;
-  std::vector<LivePage*> leaving_; ///< taken away, while their sessions end
+  std::vector<LivePage*> leaving_; ///< closed, while their sessions end
   QTimer leavingTimer_;
-  QStringList recordings_; ///< that were told last
+  QStringList recordings_; ///< at the last report
   int readers_ = 0;        ///< pages that there have been
   Theme theme_ = Theme::Light;
 };

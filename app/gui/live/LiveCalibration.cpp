@@ -3,8 +3,8 @@
 #include "app/gui/live/panels/CalibrationWords.h"
 #include "app/gui/live/panels/KnownLoad.h"
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
-#include "app/gui/widgets/PushButton.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "io/DecoderFile.h"
 #include "io/SampleFile.h"
@@ -45,13 +45,11 @@ Eigen::Vector3d forceOn(const DecodedForces& forces, int area) {
 LiveCalibration::LiveCalibration(LiveHost& host, QWidget* parent) : QWidget(parent), host_(host) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 4, 4, 4);
-  row->addWidget(buildLabel());
-  row->addWidget(buildFrames(), 2);
-  row->addWidget(buildFit(), 3);
+  addTo(*row, {buildLabel(), {buildFrames(), 2}, {buildFit(), 3}});
   for (const JobRunner* runner : {&runner_, &writer_})
     connect(runner, &JobRunner::failed, this, [this](const QString& sentence) { complain(sentence); });
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
-    known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
+    known_->setSensor(host_.sensor(), host_.network().decoder() ? &*host_.network().decoder() : nullptr);
     displayFrames();
     displayState();
   });
@@ -64,31 +62,20 @@ QWidget* LiveCalibration::buildLabel() {
   auto* box = new QGroupBox(tr("Known load"));
   auto* column = new QVBoxLayout(box);
   known_ = new KnownLoad;
-  known_->setSensor(host_.sensor(), host_.decoder() ? &*host_.decoder() : nullptr);
+  known_->setSensor(host_.sensor(), host_.network().decoder() ? &*host_.network().decoder() : nullptr);
   column->addWidget(known_);
-  count_ = new WholeBox;
-  count_->setObjectName("labelFrames");
-  count_->setRange(1, 100000);
+  count_ = wholeBox("labelFrames", {.low = 1, .high = 100000, .unit = tr(" frames"), .whileTyping = true},
+                    tr("Number of frames that are averaged to one labelled frame"));
   count_->setValue(50);
   count_->setPrefix(tr("Mean of "));
-  count_->setSuffix(tr(" frames"));
-  count_->setToolTip(tr("Number of frames that are averaged to one labelled frame"));
   collect_ = pushButton(tr("Collect"), "collect", tr("Averages the next frames under this load"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(count_, 1);
-  row->addWidget(collect_);
-  column->addLayout(row);
-  problem_ = new QLabel;
-  problem_->setObjectName("calibrationProblem");
-  problem_->setWordWrap(true);
-  problem_->setProperty("role", "problem");
+  column->addLayout(inRow({{count_, 1}, collect_}));
+  problem_ = textLabel("calibrationProblem", "problem");
   problem_->hide();
   progress_ = new QProgressBar;
   progress_->setMaximumHeight(10);
   progress_->setTextVisible(false);
-  column->addWidget(progress_);
-  column->addWidget(problem_);
-  column->addStretch(1);
+  addTo(*column, {progress_, problem_, Part::stretch()});
   connect(collect_, &QPushButton::clicked, this, &LiveCalibration::collect);
   return box;
 }
@@ -155,8 +142,8 @@ QWidget* LiveCalibration::buildFit() {
   connect(fit_, &QPushButton::clicked, this, &LiveCalibration::fit);
   connect(use_, &QPushButton::clicked, this, &LiveCalibration::use);
   connect(back_, &QPushButton::clicked, this, [this] {
-    host_.backToNetwork();
-    emit message(tr("Now decoding with %1.").arg(host_.networkName()));
+    host_.network().restore();
+    emit message(tr("Now decoding with %1.").arg(host_.network().name()));
   });
   connect(saveNetwork_, &QPushButton::clicked, this, [this] {
     const QString file = askFileToSave(this, tr("Save network"), "better.json", tr("Networks (*.json)"));
@@ -201,7 +188,7 @@ void LiveCalibration::complain(const QString& sentence) {
   if (!sentence.isEmpty()) emit message(sentence);
 }
 
-/// A bad fit is asked about.
+/// Asks before a bad fit is used.
 bool LiveCalibration::mayUse() {
   QStringList words;
   for (const std::string& warning : warningsOf(calibration_->report)) words << QString::fromStdString(warning);
@@ -218,12 +205,12 @@ void LiveCalibration::use() {
   const QString name = tr("calibrated, %1 frames, %2")
                            .arg(calibration_->report.samples)
                            .arg(QDateTime::currentDateTime().toString("yyyy-MM-dd HH:mm"));
-  host_.useDecoder(calibration_->decoder, name);
-  emit message(tr("Now decoding with the network %1; Back returns to %2.").arg(name, host_.networkBefore()));
+  host_.network().refine(calibration_->decoder, name);
+  emit message(tr("Now decoding with the network %1; Back returns to %2.").arg(name, host_.network().nameBefore()));
 }
 
 void LiveCalibration::displayState() {
-  const QString& before = host_.networkBefore();
+  const QString& before = host_.network().nameBefore();
   back_->setEnabled(!before.isEmpty());
   back_->setToolTip(before.isEmpty() ? tr("Uses the previous network for decoding again; there is none yet")
                                      : tr("Uses %1 for decoding again").arg(before));
@@ -254,21 +241,21 @@ void LiveCalibration::collect() {
     displayFrames();
     return;
   }
-  if (!host_.decoder()) {
+  if (!host_.network().decoder()) {
     complain(tr("There is no network, so the design of the frames is unknown. Open a network first."));
     return;
   }
   if (!mayCollect()) return;
-  guarded([&] { frames_.begin(*host_.decoder(), host_.sensor(), known_->load(), count_->value()); });
+  guarded([&] { frames_.begin(*host_.network().decoder(), host_.sensor(), known_->load(), count_->value()); });
 }
 
 /// Asks where what the network reads now can hardly be the label.
 bool LiveCalibration::mayCollect() {
   const LiveFrame* last = host_.history().last();
   const KnownTouch label = known_->load();
-  const std::string doubt =
-      last == nullptr ? std::string()
-                      : labelAgainstReading(label.load.force_N, last->forces, label.load.area, *host_.decoder());
+  const std::string doubt = last == nullptr ? std::string()
+                                            : labelAgainstReading(label.load.force_N, last->forces, label.load.area,
+                                                                  *host_.network().decoder());
   if (doubt.empty()) return true;
   QMessageBox question(QMessageBox::Question, tr("Collect this load?"),
                        tr("Known load: %1 Collect a frame with this label anyway?").arg(QString::fromStdString(doubt)),
@@ -282,7 +269,7 @@ bool LiveCalibration::mayCollect() {
   }
   const int answer = question.exec();
   if (put != nullptr && question.clickedButton() == put) {
-    emit simulatedLoadAsked(label);
+    emit simulatedLoadRequested(label);
     emit message(tr("The simulated board now carries the labelled load: collect a frame."));
   }
   return answer == QMessageBox::Yes;
@@ -374,16 +361,16 @@ void LiveCalibration::displayFrames() {
 
 void LiveCalibration::fit() {
   complain({});
-  if (!host_.decoder()) return;
-  runner_.start(tr("Refining the network"),
-                [this, decoder = *host_.decoder(), frames = frames_.samples()](const std::stop_token&, JobProgress&) {
-                  auto result = std::make_shared<Calibration>(calibrate(decoder, frames));
-                  return [this, result, fitted = frames.resistances_ohm] {
-                    calibration_ = std::move(*result);
-                    fitted_ohm_ = fitted;
-                    displayFit();
-                  };
-                });
+  if (!host_.network().decoder()) return;
+  runner_.start(tr("Refining the network"), [this, decoder = *host_.network().decoder(),
+                                             frames = frames_.samples()](const std::stop_token&, JobProgress&) {
+    auto result = std::make_shared<Calibration>(calibrate(decoder, frames));
+    return [this, result, fitted = frames.resistances_ohm] {
+      calibration_ = std::move(*result);
+      fitted_ohm_ = fitted;
+      displayFit();
+    };
+  });
 }
 
 void LiveCalibration::displayFit() {

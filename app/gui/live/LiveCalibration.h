@@ -27,7 +27,7 @@ public:
   [[nodiscard]] const LabelledFrames& frames() const { return frames_; }
   [[nodiscard]] const std::optional<Calibration>& calibration() const { return calibration_; }
   [[nodiscard]] JobRunner& runner() { return runner_; }
-  /// Saves frames and networks, in the order in which they were asked for.
+  /// Saves frames and networks, in the order of the requests.
   [[nodiscard]] JobRunner& writer() { return writer_; }
   /// The labelled frames of the project, in place of those that are here where they are others.
   void display(const std::shared_ptr<const BoardFrames>& frames);
@@ -37,7 +37,7 @@ public:
   void forgetFit();
   /// Frames that are in no file of samples.
   [[nodiscard]] int unsavedFrames() const { return unsaved_ ? static_cast<int>(frames_.samples().size()) : 0; }
-  /// What is in use, what can be had back, and what the network reads now.
+  /// The network in use, the one that can be restored, and the present decoded force.
   void displayState();
 
 signals:
@@ -45,7 +45,7 @@ signals:
   /// By the user: shown().
   void framesEdited();
   /// The simulated board is to bear this load.
-  void simulatedLoadAsked(const palp::KnownTouch& load);
+  void simulatedLoadRequested(const palp::KnownTouch& load);
 
 private:
   QWidget* buildLabel();

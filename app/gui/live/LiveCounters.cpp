@@ -133,7 +133,7 @@ void LiveCounters::displayTrust(const LiveStatus& status, const LiveFrame* last,
   const DecodedForces& forces = last->forces;
   const bool doubted = !forces.doubt.empty();
   const QString misfit = forces.misfit ? tr("residual %1").arg(*forces.misfit, 0, 'g', 3) : tr("readings within range");
-  // All readings have gone together, by more than they scatter: that alone is no touch that is known.
+  // All readings have changed together, by more than their scatter: that alone is not a known touch.
   const bool drifted = doubted && status.drift && status.noise > 0 && std::abs(*status.drift) > status.noise;
   const QString remedy = !drifted          ? QString()
                          : status.driftsOn ? tr("still drifting: wait, then tare; ")

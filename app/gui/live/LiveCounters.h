@@ -35,7 +35,7 @@ private:
     QWidget* box = nullptr;
     QLabel* value = nullptr;
     QLabel* unit = nullptr;
-    QString tip; ///< what is said of it; its tool tip has the words as well, as they may be cut
+    QString tip; ///< explanation; the tool tip has the text as well, as it may be cut
   };
   Tile add(const QString& name, const QString& title, const QString& tip);
   void arrange(int columns);

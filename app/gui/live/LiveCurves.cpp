@@ -30,7 +30,7 @@ LiveCurves::LiveCurves(LiveHost& host, QWidget* parent) : QSplitter(Qt::Horizont
 }
 
 const Decoder* LiveCurves::decoder() const {
-  return host_.decoder() ? &*host_.decoder() : nullptr;
+  return host_.network().decoder() ? &*host_.network().decoder() : nullptr;
 }
 
 /// A recording's time counts from its first report.
@@ -47,7 +47,7 @@ void LiveCurves::draw() {
   changes_->setChart(timed(changeCurves(host_.history(), host_.settings(), cells_)));
 }
 
-/// Curves that one looks at hold all that is there.
+/// Curves that are shown contain all existing values.
 void LiveCurves::hold() {
   LiveSettings all = host_.settings();
   all.window_s = LiveHistory::kLongest_s;

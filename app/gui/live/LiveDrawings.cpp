@@ -91,8 +91,8 @@ Eigen::Index strongest(const DecodedForces& forces) {
 }
 
 /// The times in which forces are doubted; each reaches to the next frame.
-std::vector<StripDoubt> doubts(const LiveHistory& history, const LiveSettings& settings) {
-  std::vector<StripDoubt> all;
+std::vector<ImplausibleSpan> doubts(const LiveHistory& history, const LiveSettings& settings) {
+  std::vector<ImplausibleSpan> all;
   const auto& entries = history.entries();
   bool lasts = false;
   for (std::size_t k = firstShown(history, settings.window_s); k < entries.size(); ++k) {
@@ -177,7 +177,7 @@ StripSpec forceCurves(const LiveHistory& history, const LiveSettings& settings, 
       breakAt(entries[k], curve);
       curve.t_s.push_back(entries[k].t_s);
       curve.y.push_back(there ? forces.forces_N(axis, strongest(forces)) : kNone);
-      // It holds only where the readings are those of a touch that the network knows.
+      // It holds only where the readings are those of a touch like the training's.
       const bool known = there && forces.doubt.empty();
       curve.deviation.push_back(known ? forces.standardDeviation_N(axis, strongest(forces)) : kNone);
     }
@@ -258,7 +258,7 @@ std::vector<std::string> forceLines(const LiveFrame& frame, const LiveSettings& 
     if (!forces.reason.empty()) lines.push_back("no forces: " + forces.reason);
     return lines;
   }
-  // Deviations and areas hold only where the readings are those of a touch that the network knows.
+  // Deviations and areas hold only where the readings are those of a touch like the training's.
   if (!forces.doubt.empty()) {
     lines.push_back("implausible: " + forces.doubt);
     return lines;

@@ -1,11 +1,7 @@
 #include "app/gui/live/LiveHost.h"
 
-#include "app/gui/project/FileKind.h"
 #include "app/study/live/LiveSource.h"
-#include "io/AtomicFile.h"
-#include "io/DecoderFile.h"
 #include "io/DesignFile.h"
-#include "io/Fingerprint.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
@@ -14,7 +10,7 @@ namespace palp {
 
 namespace {
 
-/// Whatever goes wrong while a source is opened is said in the session's state.
+/// Failures while a source is opened are reported in the session's state.
 template <class Open> std::unique_ptr<ReportSource> orRefuse(const Open& open) {
   try {
     return open();
@@ -34,11 +30,9 @@ bool sameSource(const LiveSettings& a, const LiveSettings& b) {
 
 LiveHost::LiveHost(BoardAccess access, QObject* parent)
     : QObject(parent), access_(std::move(access)), sensor_(paperDesign()) {
-  connect(&loader_, &JobRunner::failed, this, [this](const QString& sentence) { emit networkRefused(sentence); });
+  connect(&network_, &LiveNetwork::changed, this, &LiveHost::applyNetwork);
+  connect(&network_, &LiveNetwork::marked, this, [this](const QString& text) { mark(text.toStdString()); });
   connect(&simulatedDesign_, &SimulatedDesign::solved, this, &LiveHost::followDesign);
-  connect(&loader_, &JobRunner::finished, this, [this](bool cancelled) {
-    if (cancelled) networkAsked_ = network_.decoder && network_.file == settings_.network; // else when next seen
-  });
 }
 
 LiveHost::~LiveHost() = default;
@@ -53,18 +47,12 @@ void LiveHost::setSettings(const LiveSettings& settings, const SensorDesign& des
   }
   if (simulation_) simulation_->set(faults(), disturbance());
   hold();
-  if (before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm)) {
-    if (session_) session_->setAlarm(alarm());
-    if (!visible_) applyPause();
-  }
-  if (before.receivers != settings.receivers && !visible_) applyPause();
-  if (before.network != settings.network) {
-    networkAsked_ = network_.decoder && network_.file == settings.network; // the one in use was wanted back
-    if (networkAsked_) loader_.cancel();
-  }
-  if (before.calibrated != settings.calibrated && settings.calibrated != network_.calibrated) networkAsked_ = false;
+  const bool otherAlarm = before.alarmOn != settings.alarmOn || !(before.alarm == settings.alarm);
+  if (otherAlarm && session_) session_->setAlarm(alarm());
+  if (!visible_ && (otherAlarm || before.receivers != settings.receivers)) applyPause();
+  network_.follow(settings);
   if (!session_) return; // opened when the scene is first seen
-  if (!networkAsked_) loadNetwork();
+  if (!network_.requested()) loadNetwork();
   if (otherDesign || before.simulation.moving != settings.simulation.moving) followDesign();
   if (before.simulation.seed != settings.simulation.seed) tares_.clear(); // another sensor
   if (!sameSource(before, settings)) return restart();
@@ -122,11 +110,11 @@ void LiveHost::followDesign() {
   const bool other = simulation_ && simulated() && running_ != (own() != nullptr ? own()->samples : nullptr);
   designWaits_ = other && session_ && recording(); // a recording is of one sensor
   if (designWaits_) return;
-  const bool ofSimulation = network_.ofSimulation || own() != nullptr;
-  if (settings_.network.empty() && ofSimulation && networkAsked_ && session_)
+  const bool ofSimulation = network_.ofSimulation() || own() != nullptr;
+  if (settings_.network.empty() && ofSimulation && network_.requested() && session_)
     loadNetwork();
   else
-    setNetwork(network_);
+    network_.refresh();
   if (!other || !session_) return;
   tares_.clear(); // the simulated sensor is another one
   restart();
@@ -134,13 +122,13 @@ void LiveHost::followDesign() {
 
 /// The project's design where the network is of it; none leaves the choice to the decoder.
 std::optional<SensorDesign> LiveHost::tareDesign() const {
-  if (network_.decoder && designFingerprint(design_) == network_.decoder->designFingerprint) return design_;
+  if (network_.decoder() && designFingerprint(design_) == network_.decoder()->designFingerprint) return design_;
   return {};
 }
 
 LiveOptions LiveHost::options() {
   LiveOptions options;
-  options.decoder = network_.decoder;
+  options.decoder = network_.decoder();
   options.design = tareDesign();
   options.alarm = alarm();
   options.alsoTo = sending_.taker();
@@ -165,7 +153,7 @@ LiveOptions LiveHost::options() {
   };
   switch (settings_.source) {
   case LiveSourceKind::Automatic:
-    // Once a board was there, its absence is said and nothing else takes its place.
+    // After a board was connected, its absence is reported and nothing else replaces it.
     options.open = [simulated, access = access_, seen = boardSeen_]() -> std::unique_ptr<ReportSource> {
       return orRefuse([&]() -> std::unique_ptr<ReportSource> {
         const std::vector<HidBoard> boards = access.list();
@@ -183,7 +171,7 @@ LiveOptions LiveHost::options() {
   case LiveSourceKind::Simulated:
     options.open = simulated;
     break;
-  case LiveSourceKind::Recording: // its tare stands in it
+  case LiveSourceKind::Recording: // it contains its tare
     options.tareOf = {};
     replay_ = std::make_shared<ReplayControl>();
     replay_->speed = settings_.replaySpeed;
@@ -212,7 +200,7 @@ void LiveHost::open() {
 }
 
 // A source may take long to end, and a future waits where it is destroyed: neither in the window's thread.
-template <class Running> void LiveHost::letGo(std::unique_ptr<Running> old) {
+template <class Running> void LiveHost::endInBackground(std::unique_ptr<Running> old) {
   std::erase_if(closing_, [](const std::future<void>& ending) {
     return ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   });
@@ -221,16 +209,16 @@ template <class Running> void LiveHost::letGo(std::unique_ptr<Running> old) {
 
 void LiveHost::restart() {
   paused_ = false;
-  letGo(std::move(session_));
+  endInBackground(std::move(session_));
   open();
 }
 
 void LiveHost::setVisible(bool visible) {
   visible_ = visible;
-  if (!visible) letGo(std::move(watch_));
+  if (!visible) endInBackground(std::move(watch_));
   if (visible && !watch_) watch_ = std::make_unique<BoardWatch>(access_);
   if (visible && !session_) open();
-  if (visible && !networkAsked_) loadNetwork();
+  if (visible && !network_.requested()) loadNetwork();
   applyPause();
 }
 
@@ -240,16 +228,17 @@ bool LiveHost::worksHidden() const {
 
 void LiveHost::close() {
   simulator().cancel();
-  loader_.cancel();
+  network_.loader().cancel();
   sending_.follow({});
-  letGo(std::move(watch_));
-  letGo(std::move(session_));
+  endInBackground(std::move(watch_));
+  endInBackground(std::move(session_));
   status_ = {};
 }
 
 bool LiveHost::closed() {
-  letGo<LiveSession>(nullptr); // forgets those that have ended
-  return closing_.empty() && sending_.settled() && !session_ && !watch_ && !loader_.running() && !simulator().running();
+  endInBackground<LiveSession>(nullptr); // forgets those that have ended
+  return closing_.empty() && sending_.settled() && !session_ && !watch_ && !network_.loading() &&
+         !simulator().running();
 }
 
 void LiveHost::applyPause() {
@@ -258,87 +247,14 @@ void LiveHost::applyPause() {
   const bool idle = !visible_ && !watches();
   const bool held = (visible_ && paused_) || (idle && !recorded_); // its curves have no hole where one was elsewhere
   session_->idle(idle);
-  if (replay_) {
+  if (replay_)
     replay_->paused = held;
-  } else {
+  else
     session_->pause(held);
-  }
 }
 
 void LiveHost::loadNetwork() {
-  networkAsked_ = true;
-  if (settings_.calibrated && settings_.calibrated != network_.calibrated) {
-    loader_.cancel();
-    networkAsked_ = true;
-    return useCalibrated(settings_.calibrated, settings_.network);
-  }
-  if (settings_.network.empty() && own() != nullptr) {
-    loader_.cancel();
-    networkAsked_ = true;
-    before_ = {};
-    return setNetwork({own()->decoder, {}, {}, tr("Network of the simulated design"), true});
-  }
-  // One that cannot read the board that is there does not take the place of one that can.
-  const std::optional<BoardInfo> info = network_.decoder ? status_.info : std::nullopt;
-  loader_.start(tr("Reading the network"), [this, file = settings_.network, info](const std::stop_token&,
-                                                                                  JobProgress&) {
-    if (!file.empty()) requireKind(QString::fromStdString(file), FileKind::Network);
-    const std::filesystem::path path = file.empty() ? shippedNetwork() : std::filesystem::path(file);
-    auto loaded = std::make_shared<Network>(Network{readNetwork(path), file, fingerprint(readFile(path)), {}, false});
-    if (!file.empty() && info)
-      static_cast<void>(ForceDecoder(*loaded->decoder, *info)); // throws where it cannot read it
-    return [this, loaded] { takeNetwork(std::move(*loaded)); };
-  });
-}
-
-/// One that was chosen and has been read.
-void LiveHost::takeNetwork(Network network) {
-  Network inUse = network_;
-  inUse.name = networkName();
-  const bool first = std::exchange(anotherProject_, false);
-  const bool wanted = inUse.decoder && inUse.file != network.file && !first;
-  before_ = wanted ? std::move(inUse) : Network{};
-  setNetwork(std::move(network));
-}
-
-void LiveHost::forgetNetworkBefore() {
-  before_ = {};
-  anotherProject_ = loader_.running() || !networkAsked_;
-  emit decoderChanged();
-}
-
-void LiveHost::setNetwork(Network network) {
-  network_ = std::move(network);
-  const bool paper = network_.decoder && designFingerprint(paperDesign()) == network_.decoder->designFingerprint;
-  sensor_ = tareDesign() || !paper ? design_ : paperDesign();
-  if (session_) session_->setDecoder(network_.decoder, tareDesign());
-  emit decoderChanged();
-  if (network_.decoder && networkAsked_ && !loader_.running() && !namedBySettings()) emit otherNetworkInUse();
-}
-
-bool LiveHost::namedBySettings() const {
-  return network_.file == settings_.network && network_.calibrated == settings_.calibrated;
-}
-
-QString LiveHost::networkName() const {
-  if (!network_.name.isEmpty()) return network_.name;
-  if (network_.file.empty()) return tr("Built-in network");
-  return QString::fromStdString(std::filesystem::path(network_.file).filename().string());
-}
-
-void LiveHost::useDecoder(Decoder decoder, const QString& name) {
-  before_ = network_;
-  before_.name = networkName();
-  mark(tr("network: %1").arg(name).toStdString());
-  useCalibrated(std::make_shared<const CalibratedNetwork>(CalibratedNetwork{std::move(decoder), name.toStdString()}),
-                network_.file);
-}
-
-/// `file`: of the network that it was refined from.
-void LiveHost::useCalibrated(const std::shared_ptr<const CalibratedNetwork>& calibrated, const std::string& file) {
-  anotherProject_ = false;
-  setNetwork(
-      {calibrated->decoder, file, {}, QString::fromStdString(calibrated->name), network_.ofSimulation, calibrated});
+  network_.load(own(), status_.info);
 }
 
 void LiveHost::useChosenNetwork() {
@@ -346,12 +262,13 @@ void LiveHost::useChosenNetwork() {
   loadNetwork();
 }
 
-void LiveHost::backToNetwork() {
-  if (before_.name.isEmpty()) return;
-  Network back = std::exchange(before_, {});
-  mark(tr("network: %1").arg(back.name).toStdString());
-  setNetwork(std::move(back));
-  if (!namedBySettings()) emit otherNetworkInUse(); // while another one is being read, too
+/// The decoder of the session, and the design of the board that it belongs to.
+void LiveHost::applyNetwork() {
+  const std::optional<Decoder>& decoder = network_.decoder();
+  const bool paper = decoder && designFingerprint(paperDesign()) == decoder->designFingerprint;
+  sensor_ = tareDesign() || !paper ? design_ : paperDesign();
+  if (session_) session_->setDecoder(decoder, tareDesign());
+  emit decoderChanged();
 }
 
 bool LiveHost::look() {
@@ -419,6 +336,64 @@ void LiveHost::setPluggedIn(bool in) {
 
 bool LiveHost::pluggedIn() const {
   return simulation_ && simulation_->pluggedIn;
+}
+
+void LiveHost::seek(double to_s) {
+  if (replay_) replay_->seek(to_s);
+}
+
+/// What is read of the past after a jump is shown with the place that was gone to, not before it.
+void LiveHost::drain() {
+  for (auto& frame : session_->drain()) waiting_.push_back(std::move(frame));
+  auto end = waiting_.end();
+  if (!waiting_.empty() && waiting_.back()->past && status_.state != LiveState::Ended)
+    end = std::find_if(waiting_.begin(), waiting_.end(),
+                       [&](const auto& frame) { return frame->jumps == waiting_.back()->jumps; });
+  fresh_.assign(waiting_.begin(), end);
+  waiting_.erase(waiting_.begin(), end);
+}
+
+void LiveHost::step(int frames) {
+  if (!replay_) return;
+  setPaused(true);
+  if (frames > 0) {
+    replay_->steps += frames;
+    return;
+  }
+  if (const LiveFrame* last = history_.last()) replay_->seekFrameBefore(last->frame.hostTime_s);
+}
+
+void LiveHost::startRecording(const std::filesystem::path& path, bool replace) {
+  if (!session_) throw Error(path.string() + ": cannot record, as no source is open");
+  if (replay_ && std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(settings_.recording))
+    throw Error(path.string() + ": is being played; record to another file");
+  session_->startRecording(path, network_.fingerprint(), replace);
+  recordingFile_ = path;
+  recordedBefore_s_ = 0;
+  recordsSince_s_.reset();
+  recordingEnds_ = false;
+}
+
+/// The clock of a recording stops while nothing arrives that could be recorded.
+void LiveHost::timeRecording() {
+  const bool goesOn = status_.recording && !recordingEnds_;
+  if (goesOn == recordsSince_s_.has_value()) return;
+  if (goesOn) {
+    recordsSince_s_ = hostClock_s();
+  } else {
+    recordedBefore_s_ = recorded_s();
+    recordsSince_s_.reset();
+  }
+}
+
+double LiveHost::recorded_s() const {
+  return recordedBefore_s_ + (recordsSince_s_ ? hostClock_s() - *recordsSince_s_ : 0);
+}
+
+void LiveHost::stopRecording() {
+  recordingEnds_ = true;
+  timeRecording();
+  if (session_) session_->stopRecording();
 }
 
 } // namespace palp

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "app/gui/jobs/JobRunner.h"
+#include "app/gui/live/LiveNetwork.h"
 #include "app/gui/live/SimulatedDesign.h"
 #include "app/gui/live/send/LiveSending.h"
 #include "app/gui/project/LiveSettings.h"
-#include "app/gui/project/live/BoardCalibration.h"
 #include "app/study/live/BoardWatch.h"
 #include "app/study/live/LiveHistory.h"
 #include "app/study/live/SimulatedTouch.h"
@@ -22,7 +21,14 @@ namespace palp {
 [[nodiscard]] bool sameSource(const LiveSettings& a, const LiveSettings& b);
 
 /// The live session of one board in the Live scene: opened by the settings, drained when the scene looks. While the
-/// scene is hidden a recording goes on and an alarm that is set goes off; else nothing is read.
+/// scene is hidden a recording continues and an alarm that is set works; else nothing is read.
+///
+/// States and order of calls: setSettings() before all else. Closed: no session; settings are stored only. The first
+/// setVisible(true) opens the session and reads the network. Open: look() takes frames and status at each tick of the
+/// scene, gives each connection its rate and rows, and replaces the simulated board when a real one is plugged in.
+/// Other settings change the running session, except another source, seed or simulated design: restart() ends it in a
+/// thread of its own and opens the next; openings() counts them. Hidden: paused, or, with a recording, an alarm or a
+/// receiver, running. close() ends everything; the host may be deleted when closed() returns true.
 class LiveHost : public QObject {
   Q_OBJECT
 
@@ -57,11 +63,10 @@ public:
   [[nodiscard]] bool simulated() const;
   [[nodiscard]] bool replaying() const { return replay_ != nullptr; }
   [[nodiscard]] ReplayControl* replay() const { return replay_.get(); }
-  /// Null before it is read, or where it cannot be.
-  [[nodiscard]] const std::optional<Decoder>& decoder() const { return network_.decoder; }
+  [[nodiscard]] LiveNetwork& network() { return network_; }
+  [[nodiscard]] const LiveNetwork& network() const { return network_; }
   /// The network's design where it is known, else the project's.
   [[nodiscard]] const SensorDesign& sensor() const { return sensor_; }
-  [[nodiscard]] JobRunner& loader() { return loader_; }
   /// Solves the project's design for the simulated board.
   void simulateDesign(const MeshOptions& mesh) { simulatedDesign_.solve(design_, mesh, settings_.simulation.moving); }
   [[nodiscard]] JobRunner& simulator() { return simulatedDesign_.runner(); }
@@ -71,9 +76,6 @@ public:
   [[nodiscard]] bool simulatesOwnDesign() const;
   /// What truly touches the simulated board at the time of a frame; none where nothing moves over it.
   [[nodiscard]] std::optional<SimulatedTouch::Truth> trueTouch(const BoardFrame& at) const;
-  /// The network is being read.
-  [[nodiscard]] bool loading() const { return loader_.running(); }
-
   void tare();
   void clearTare();
   void setPaused(bool paused);
@@ -92,55 +94,28 @@ public:
   [[nodiscard]] bool sendingSettled() const { return sending_.settled(); }
   /// Of each receiver of the settings.
   [[nodiscard]] std::vector<SendingState> sending() { return sending_.states(settings_.receivers); }
-  /// How long the recording has gone on, or the last one went on: without the time in which the board was out.
+  /// Duration of the recording or of the last one [s], without the time in which the board was unplugged.
   [[nodiscard]] double recorded_s() const;
   /// The file of the last recording that was begun.
   [[nodiscard]] const std::filesystem::path& recordingFile() const { return recordingFile_; }
-  /// A refined network in place of the one in use, which can be had back. Recordings get a mark.
-  void useDecoder(Decoder decoder, const QString& name);
-  /// The network of the settings again, in place of one that was refined since.
+  /// The network of the settings again, instead of one that was refined since.
   void useChosenNetwork();
-  /// The network that was in use before; its name is empty where there is none to go back to.
-  void backToNetwork();
-  [[nodiscard]] const QString& networkBefore() const { return before_.name; }
-  /// The network in use, in words: its file, or what was made of it.
-  [[nodiscard]] QString networkName() const;
-  /// Of the network in use; empty: the one that ships with Palp.
-  [[nodiscard]] const std::string& networkFile() const { return network_.file; }
-  /// It, where it was refined; null: it is as it was chosen.
-  [[nodiscard]] const std::shared_ptr<const CalibratedNetwork>& calibrated() const { return network_.calibrated; }
-  /// Another project is open: there is no network of it to go back to.
-  void forgetNetworkBefore();
-  /// Goes on from this time of the recording [s].
+  /// Continues from this time of the recording [s].
   void seek(double to_s);
 
   /// Sources that were opened so far: another number is another source.
   [[nodiscard]] int openings() const { return openings_; }
 
 signals:
+  /// Another network is in use, or its sensor() has changed.
   void decoderChanged();
-  /// Another network is in use than the settings name: networkFile(), calibrated().
-  void otherNetworkInUse();
-  /// The file that was chosen is no network for this board; the one in use stays.
-  void networkRefused(const QString& sentence);
 
 private:
-  struct Network {
-    std::optional<Decoder> decoder;
-    std::string file;
-    std::string fingerprint;                               ///< of the file; empty: it is in none
-    QString name;                                          ///< empty: its file says it
-    bool ofSimulation = false;                             ///< trained on the samples of the simulated board
-    std::shared_ptr<const CalibratedNetwork> calibrated{}; ///< null: it is as it was chosen
-  };
   void open();
   /// Ends a thread of its own without waiting for it.
-  template <class Running> void letGo(std::unique_ptr<Running> old);
+  template <class Running> void endInBackground(std::unique_ptr<Running> old);
   void loadNetwork();
-  void setNetwork(Network network);
-  void takeNetwork(Network network);
-  void useCalibrated(const std::shared_ptr<const CalibratedNetwork>& calibrated, const std::string& file);
-  [[nodiscard]] bool namedBySettings() const;
+  void applyNetwork();
   void applyPause();
   [[nodiscard]] bool watches() const { return (settings_.alarmOn || sending_.on()) && !replay_; }
   void configureOnce();
@@ -159,16 +134,14 @@ private:
   LiveSettings settings_;
   SensorDesign design_, sensor_;
   std::shared_ptr<const SampleSet> running_; ///< that the simulated board was opened with; null: those of Palp
-  Network network_, before_;                 ///< in use, and the one that can be had back
-  bool networkAsked_ = false;
-  bool anotherProject_ = false; ///< the network that is being read is the first one of a project
-  bool designWaits_ = false;    ///< the simulated board follows the design when its recording has ended
+  LiveNetwork network_;
+  bool designWaits_ = false; ///< the simulated board follows the design when its recording has ended
   bool visible_ = false, paused_ = false;
   bool recorded_ = false; ///< at the last look
   std::filesystem::path recordingFile_;
   double recordedBefore_s_ = 0;          ///< that the recording holds, up to the last time that the board went out
   std::optional<double> recordsSince_s_; ///< by hostClock_s; none: nothing comes, or none is running
-  bool recordingEnds_ = false;           ///< was asked for
+  bool recordingEnds_ = false;           ///< was requested
   SimulatedDesign simulatedDesign_;
   std::shared_ptr<TouchHand> hand_ = std::make_shared<TouchHand>(); ///< on the simulated board
   std::shared_ptr<SimulationControl> simulation_;
@@ -185,7 +158,6 @@ private:
   std::vector<std::shared_ptr<const LiveFrame>> fresh_;
   std::vector<std::shared_ptr<const LiveFrame>> waiting_; ///< frames of the past, for the place that was gone to
   std::uint64_t configured_ = 0;                          ///< the connection that has got its rate and rows
-  JobRunner loader_;
 };
 
 } // namespace palp

@@ -18,16 +18,16 @@ struct LiveLampState {
 /// Remembers alarms until the scene is seen again.
 class LiveWatch {
 public:
-  /// After each look of the host; says a new alarm in words, once.
+  /// After each look of the host; reports a new alarm as text, once.
   QString take(const LiveHost& host, bool seen);
   [[nodiscard]] LiveLampState state(const LiveHost& host, bool seen) const;
-  /// The alarm that is on, in words, for a second at least: a short touch is seen too. Empty: none.
+  /// The alarm that is on, as text, for at least a second: a short touch is seen too. Empty: none.
   [[nodiscard]] QString alarm(const LiveHost& host) const;
 
 private:
-  std::uint64_t alarms_ = 0; ///< that were said
+  std::uint64_t alarms_ = 0; ///< reported
   int unseen_ = 0;
-  double began_s_ = 0; ///< host clock when the last one was said
+  double began_s_ = 0; ///< host clock when the last one was reported
 };
 
 /// A lamp in the window's status line; a click leads to the Live scene.

@@ -9,8 +9,8 @@ namespace palp {
 
 namespace {
 
-constexpr double kLasting_s = 0.7;    // that a wire is broken before it is said: a fault that comes and goes is none
-constexpr double kDriftAgain_s = 300; // between two sentences on one drift
+constexpr double kLasting_s = 0.7;    // a wire must be broken before it is reported: a passing fault is ignored
+constexpr double kDriftAgain_s = 300; // between two reports of one drift
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
@@ -19,14 +19,14 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 } // namespace
 
 QString networkWords(const LiveHost& host) {
-  const std::optional<Decoder>& decoder = host.decoder();
-  if (!decoder) return host.loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
+  const std::optional<Decoder>& decoder = host.network().decoder();
+  if (!decoder) return host.network().loading() ? QObject::tr("Reading the network...") : QObject::tr("No network.");
   const QString rows =
       static_cast<int>(decoder->input.rows.size()) == decoder->input.rowWires
           ? QObject::tr("all row-wires")
           : QObject::tr("%1 of %2 row-wires").arg(decoder->input.rows.size()).arg(decoder->input.rowWires);
   return QObject::tr("%1: %2, %3, trained for a noise of %4 ppm")
-      .arg(host.networkName(), traits(decoder->kind).description, rows)
+      .arg(host.network().name(), traits(decoder->kind).description, rows)
       .arg(1e6 * decoder->noise, 0, 'g', 3);
 }
 
@@ -59,8 +59,8 @@ QStringList LiveNews::take(const LiveHost& host) {
                        : host.simulated() ? QObject::tr("the simulated board")
                                           : QObject::tr("a board"));
   }
-  if (host.decoder()) {
-    const QString network = host.networkName();
+  if (host.network().decoder()) {
+    const QString network = host.network().name();
     if (!network_.isEmpty() && network != network_) news << QObject::tr("Network in use: %1.").arg(network);
     network_ = network;
   }
@@ -97,7 +97,8 @@ void LiveNews::takeWires(const LiveHost& host, QStringList& news) {
     if (!contains(faults_, fault)) news << QObject::tr("Broken: %1.").arg(QString::fromStdString(fault));
   for (const std::string& fault : faults_)
     if (!contains(fresh_, fault))
-      news << QObject::tr("Repaired: %1. Network in use: %2.").arg(QString::fromStdString(fault), host.networkName());
+      news
+          << QObject::tr("Repaired: %1. Network in use: %2.").arg(QString::fromStdString(fault), host.network().name());
   faults_ = fresh_;
 }
 

@@ -6,9 +6,9 @@
 
 namespace palp {
 
-/// What happens to a board, each event said once, for the log of messages: another source, a board that goes and comes
+/// Events of a board, each reported once, for the log of messages: another source, a board that is unplugged and comes
 /// back, a wire that breaks or is mended, a drift, a tare that holds or is cleared, another network. Of what is played
-/// nothing but that it is: it is no news.
+/// only the start is reported.
 class LiveNews {
 public:
   /// After each look of the host: what happened since the last one.
@@ -20,10 +20,10 @@ private:
   void takeRest(const LiveStatus& status, QStringList& news);
 
   int openings_ = 0;
-  bool known_ = false; ///< of this source: what it was at first is no news
+  bool known_ = false; ///< of this source: its initial state is not reported
   bool gone_ = false;
-  double drifted_s_ = 0;                    ///< host clock when a drift was said last; 0: not since the tare
-  std::vector<std::string> faults_, fresh_; ///< that were said; those of the last look
+  double drifted_s_ = 0;                    ///< host clock when a drift was last reported; 0: not since the tare
+  std::vector<std::string> faults_, fresh_; ///< reported; those of the last look
   double freshSince_s_ = 0;                 ///< host clock
   std::shared_ptr<const Tare> tare_;
   QString network_;

@@ -5,7 +5,7 @@
 #include "app/gui/live/LiveCounters.h"
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
@@ -14,6 +14,7 @@
 #include "app/gui/live/send/SendPanel.h"
 #include "app/gui/project/Command.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QAbstractButton>
@@ -34,7 +35,7 @@ namespace palp {
 namespace {
 
 constexpr int kPanelWidth_px = 340;
-constexpr int kFrame_ms = 34; // 30 frames a second at most
+constexpr int kFrame_ms = 34; // at most 30 frames per second
 constexpr int kHiddenLook_ms = 250;
 constexpr int kHiddenLooks = 4;           // until it is known that nothing is recorded or watched
 constexpr double kForceDigit_N = 0.01;    // that the panel shows
@@ -60,14 +61,15 @@ LivePage::LivePage(Workbench& workbench, BoardAccess access, std::size_t board)
   row->addWidget(buildPanels());
   views_ = buildViews();
   row->addWidget(views_, 1);
-  row->addStretch(0); // beside a panel that stands alone
+  row->addStretch(0); // next to a panel without views
   timer_.setInterval(kFrame_ms);
   connect(&timer_, &QTimer::timeout, this, &LivePage::look);
   hiddenTimer_.setInterval(kHiddenLook_ms);
   connect(&hiddenTimer_, &QTimer::timeout, this, &LivePage::lookHidden);
   connect(&workbench_, &Workbench::projectChanged, this, &LivePage::displayProject);
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
-    host_.forgetNetworkBefore();
+    host_.network().forgetBefore();
+    emit host_.decoderChanged();
     calibration_->forgetFit();
   });
   workbench_.lossQuestion().ask(*this, [this](const Leaving& leaving) {
@@ -88,9 +90,7 @@ QWidget* LivePage::buildPanels() {
   simulation_ = new SimulationPanel;
   control_ = new LiveControlPanel;
   if (board_ > 0) control_->displayRecording(QDir::home().filePath(QString("touch-board%1.palprec").arg(board_)), {});
-  column->addWidget(control_->recording());
-  column->addWidget(source_);
-  column->addWidget(simulation_);
+  addTo(*column, {control_->recording(), source_, simulation_});
   send_ = new SendPanel;
   column->addWidget(send_);
   column->addWidget(control_, 1);
@@ -112,12 +112,12 @@ QWidget* LivePage::buildViews() {
   block_ = new LiveView;
   block_->setObjectName("liveBlock");
   block_->setAccessibleName(tr("Force vectors over the sensor"));
-  twin_ = new LiveTwin;
-  twin_->setObjectName("liveTwin");
+  modelView_ = new LiveModelView;
+  modelView_->setObjectName("liveTwin");
   blockTabs_ = new QTabWidget;
   blockTabs_->setObjectName("blockTabs");
   blockTabs_->addTab(block_, tr("Forces"));
-  blockTabs_->addTab(twin_, tr("Model view"));
+  blockTabs_->addTab(modelView_, tr("Model view"));
   blockTabs_->setTabToolTip(1, tr("Finite element model under the decoded force, solved on request"));
   heatmap_ = new HeatmapView;
   heatmap_->setObjectName("liveHeatmap");
@@ -178,31 +178,31 @@ void LivePage::connectPanels() {
   connect(send_, &SendPanel::edited, this, &LivePage::edit);
   connectSimulation();
   connect(replay_, &ReplayBar::message, this, &LivePage::message);
-  connect(replay_, &ReplayBar::speedAsked, this, [this](double speed) {
+  connect(replay_, &ReplayBar::speedRequested, this, [this](double speed) {
     change(tr("replay speed"), [&](LiveSettings& settings) { settings.replaySpeed = speed; });
   });
-  connect(replay_, &ReplayBar::boardAsked, this, [this] {
+  connect(replay_, &ReplayBar::boardRequested, this, [this] {
     change(tr("source"), [](LiveSettings& settings) { settings.source = LiveSourceKind::Automatic; });
   });
-  connect(control_, &LiveControlPanel::backAsked, &host_, &LiveHost::backToNetwork);
-  connect(control_, &LiveControlPanel::shippedAsked, &host_, &LiveHost::useChosenNetwork);
-  connect(source_, &LiveSourcePanel::openAgainAsked, this, [this] {
+  connect(control_, &LiveControlPanel::backRequested, &host_.network(), &LiveNetwork::restore);
+  connect(control_, &LiveControlPanel::shippedRequested, &host_, &LiveHost::useChosenNetwork);
+  connect(source_, &LiveSourcePanel::openAgainRequested, this, [this] {
     if (!host_.recording() || acceptsLosses({recordingEnds()}, this)) host_.restart();
   });
-  connect(source_, &LiveSourcePanel::anotherAsked, this, &LivePage::anotherAsked);
-  connect(control_, &LiveControlPanel::tareAsked, this, &LivePage::tare);
-  connect(control_, &LiveControlPanel::clearTareAsked, &host_, &LiveHost::clearTare);
-  connect(control_, &LiveControlPanel::pauseAsked, &host_, &LiveHost::setPaused);
-  connect(control_, &LiveControlPanel::markAsked, this, [this](const QString& text) {
+  connect(source_, &LiveSourcePanel::anotherRequested, this, &LivePage::anotherRequested);
+  connect(control_, &LiveControlPanel::tareRequested, this, &LivePage::tare);
+  connect(control_, &LiveControlPanel::clearTareRequested, &host_, &LiveHost::clearTare);
+  connect(control_, &LiveControlPanel::pauseRequested, &host_, &LiveHost::setPaused);
+  connect(control_, &LiveControlPanel::markRequested, this, [this](const QString& text) {
     host_.mark(text.toStdString());
     emit message(host_.recording() ? tr("Marked: %1.").arg(text)
                                    : tr("Marked: %1; no recording is running.").arg(text));
   });
-  connect(control_, &LiveControlPanel::recordAsked, this, &LivePage::record);
-  connect(control_, &LiveControlPanel::exportAsked, this, &LivePage::exportFrames);
+  connect(control_, &LiveControlPanel::recordRequested, this, &LivePage::record);
+  connect(control_, &LiveControlPanel::exportRequested, this, &LivePage::exportFrames);
   connect(heatmap_, &HeatmapView::cellClicked, this, &LivePage::toggleCell);
-  connect(&host_, &LiveHost::networkRefused, this, &LivePage::refuseNetwork);
-  connect(&host_, &LiveHost::otherNetworkInUse, this, &LivePage::takeNetworkInUse);
+  connect(&host_.network(), &LiveNetwork::refused, this, &LivePage::refuseNetwork);
+  connect(&host_.network(), &LiveNetwork::otherInUse, this, &LivePage::takeNetworkInUse);
   connect(&host_, &LiveHost::decoderChanged, this, [this] {
     control_->displayNetworkProblem({});
     stateLook_ = 0;
@@ -213,25 +213,25 @@ void LivePage::connectPanels() {
   connect(calibration_, &LiveCalibration::framesEdited, this, [this] {
     change(tr("labelled frames"), [&](LiveSettings& settings) { settings.frames = calibration_->shown(); });
   });
-  connect(calibration_, &LiveCalibration::simulatedLoadAsked, this, [this](const KnownTouch& load) {
+  connect(calibration_, &LiveCalibration::simulatedLoadRequested, this, [this](const KnownTouch& load) {
     change(tr("simulated touch"), [&](LiveSettings& settings) { holdLabel(settings.simulation, load); });
   });
-  connect(banner_, &LiveBanner::tareAsked, this, &LivePage::tare);
-  connect(banner_, &LiveBanner::networkOfRowsAsked, this, &LivePage::prepareNetwork);
-  connect(twin_, &LiveTwin::solveAsked, this, &LivePage::solveTwin);
-  connect(twin_, &LiveTwin::loadAsked, this, [this](const LoadCase& load) {
+  connect(banner_, &LiveBanner::tareRequested, this, &LivePage::tare);
+  connect(banner_, &LiveBanner::networkOfRowsRequested, this, &LivePage::prepareNetwork);
+  connect(modelView_, &LiveModelView::solveRequested, this, &LivePage::solveModelView);
+  connect(modelView_, &LiveModelView::loadRequested, this, [this](const LoadCase& load) {
     Project next = workbench_.project();
     next.design = host_.sensor();
     next.load = load;
-    workbench_.edit(tr("load of the live force"), next);
+    workbench_.edit(tr("Use the live force as the load"), next);
     emit message(tr("The decoded force is now the load of the Deformation scene."));
   });
 }
 
 void LivePage::connectSimulation() {
   connect(simulation_, &SimulationPanel::edited, this, &LivePage::edit);
-  connect(simulation_, &SimulationPanel::plugAsked, &host_, &LiveHost::setPluggedIn);
-  connect(simulation_, &SimulationPanel::designAsked, this, [this] {
+  connect(simulation_, &SimulationPanel::plugRequested, &host_, &LiveHost::setPluggedIn);
+  connect(simulation_, &SimulationPanel::designRequested, this, [this] {
     if (!host_.simulatesOwnDesign()) host_.simulateDesign(workbench_.project().mesh);
   });
   connect(&host_.simulator(), &JobRunner::failed, this, &LivePage::message);
@@ -263,7 +263,7 @@ void LivePage::connectSimulation() {
   connect(block_, &LiveView::placeStepped, this, [this, place](const Eigen::Vector2d& by_mm) {
     place(Eigen::Vector2d(settings().simulation.heldPlace_mm.data()) + by_mm);
   });
-  connect(block_, &LiveView::handAsked, this, [this] {
+  connect(block_, &LiveView::handRequested, this, [this] {
     if (!host_.simulated()) return;
     change(tr("simulated touch"), [](LiveSettings& settings) { settings.simulation.held = !settings.simulation.held; });
   });
@@ -281,8 +281,9 @@ void LivePage::change(const QString& what, const std::function<void(LiveSettings
 
 /// What was chosen cannot be used: the network in use stays, and the settings name it again.
 void LivePage::refuseNetwork(const QString& sentence) {
-  if (host_.decoder()) takeNetworkInUse();
-  const QString words = host_.decoder() ? tr("%1. Still in use: %2.").arg(sentence, host_.networkName()) : sentence;
+  if (host_.network().decoder()) takeNetworkInUse();
+  const QString words =
+      host_.network().decoder() ? tr("%1. Still in use: %2.").arg(sentence, host_.network().name()) : sentence;
   control_->displayNetworkProblem(words);
   emit message(words);
 }
@@ -291,21 +292,19 @@ void LivePage::refuseNetwork(const QString& sentence) {
 void LivePage::takeNetworkInUse() {
   if (board_ >= workbench_.project().boards()) return; // it is about to go
   change(tr("network"), [&](LiveSettings& settings) {
-    settings.network = host_.networkFile();
-    settings.calibrated = host_.calibrated();
+    settings.network = host_.network().file();
+    settings.calibrated = host_.network().calibrated();
   });
 }
 
 void LivePage::edit(const QString& what, const LiveSettings& settings) {
-  Project next = workbench_.project();
-  next.board(board_) = settings;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.board(board_) = settings; });
 }
 
 void LivePage::displayProject() {
   if (board_ >= workbench_.project().boards()) return; // it is about to go
   const LiveSettings settings = this->settings();
-  if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and says so
+  if (host_.recording() && !sameSource(host_.settings(), settings)) stopRecording(); // and reports it
   host_.setSettings(settings, workbench_.project().design);
   calibration_->display(settings.frames);
   source_->display(settings);
@@ -319,8 +318,8 @@ void LivePage::displayProject() {
 }
 
 std::vector<JobRunner*> LivePage::runners() {
-  return {&twin_->runner(), &calibration_->runner(), &calibration_->writer(),
-          &host_.loader(),  &host_.simulator(),      &exporter_};
+  return {&modelView_->runner(),     &calibration_->runner(), &calibration_->writer(),
+          &host_.network().loader(), &host_.simulator(),      &exporter_};
 }
 
 QString LivePage::commands(const Project& project, const QString&) const {
@@ -328,7 +327,7 @@ QString LivePage::commands(const Project& project, const QString&) const {
 }
 
 bool LivePage::complete() const {
-  if (host_.loading()) return false;
+  if (host_.network().loading()) return false;
   const bool waited = shownSince_s_ > 0 && hostClock_s() - shownSince_s_ > kSnapshotPatience_s;
   return waited || (host_.simulated() && arrowSeen_);
 }
@@ -356,7 +355,7 @@ void LivePage::resizeEvent(QResizeEvent* event) {
   arrangeViews();
 }
 
-/// The views have another size, after a fold of the panel too: they are arranged when the layout has settled.
+/// The views have another size, after a fold of the panel too: they are arranged when the layout is complete.
 bool LivePage::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize) QMetaObject::invokeMethod(this, &LivePage::arrangeViews, Qt::QueuedConnection);
   return Scene::eventFilter(watched, event);
@@ -371,7 +370,7 @@ void LivePage::setBeside(bool beside) {
   arrangeViews();
 }
 
-/// A recording or an alarm goes on out of sight; where there is neither, nothing runs.
+/// A recording or an alarm continues while hidden; without either, nothing runs.
 void LivePage::lookHidden() {
   host_.look();
   announce();
@@ -383,7 +382,7 @@ void LivePage::announce() {
   for (const QString& sentence : news_.take(host_)) emit message(sentence);
   const QString alarm = watch_.take(host_, isVisible());
   if (alarm.isEmpty()) return;
-  stateLook_ = 0; // it is seen at once
+  stateLook_ = 0; // shown immediately
   emit message(alarm);
 }
 

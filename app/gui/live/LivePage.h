@@ -23,16 +23,16 @@ class LiveControlPanel;
 class LiveCounters;
 class LiveCurves;
 class LiveSourcePanel;
-class LiveTwin;
+class LiveModelView;
 class LiveView;
 class ReplayBar;
 class SidePanel;
 class SendPanel;
 class SimulationPanel;
 
-/// A live board: force vectors, heatmap and curves at no more than 30 frames a second, and only while it is seen.
-/// While it is hidden a recording and an alarm that is set go on. Meshes and solves nothing but the twin, when it is
-/// asked for.
+/// A live board: force vectors, heatmap and curves at no more than 30 frames per second, and only while it is seen.
+/// While it is hidden a recording and an alarm that is set continue. Meshes and solves only the model view, on
+/// request.
 class LivePage : public Scene {
   Q_OBJECT
 
@@ -50,22 +50,22 @@ public:
   [[nodiscard]] int unsavedFrames() const;
   /// What ends or is lost where this board is closed, in sentences.
   [[nodiscard]] QStringList lossesByClosing() const;
-  [[nodiscard]] LiveTwin& twin() { return *twin_; }
+  [[nodiscard]] LiveModelView& twin() { return *modelView_; }
   /// How often the views were brought up to date.
   [[nodiscard]] int looks() const { return looks_; }
   /// Which of the project's boards it shows, from the next change of the project on.
   void setBoard(std::size_t board) { board_ = board; }
-  /// What is told of it in every scene.
+  /// Its status for all scenes.
   [[nodiscard]] LiveLampState lamp() const { return watch_.state(host_, isVisible()); }
-  /// Another board of the project is asked for beside this one.
+  /// Another board of the project is requested in addition to this one.
   void setMoreAllowed(bool allowed);
-  /// It shares the window with others: where it is too narrow for views beside its panel, the panel takes their place.
+  /// It shares the window with others: where it is too narrow for views next to its panel, the panel replaces them.
   void setBeside(bool beside);
 
 signals:
   void message(const QString& sentence);
-  void anotherAsked();
-  void sceneAsked(const QString& name);
+  void anotherRequested();
+  void sceneRequested(const QString& name);
   /// After each look, seen or hidden.
   void looked();
 
@@ -104,7 +104,7 @@ private:
   [[nodiscard]] QString recordingEnds() const;
   void takeNetworkInUse();
   void stopRecording();
-  void solveTwin();
+  void solveModelView();
   void prepareNetwork(const QString& rows);
   [[nodiscard]] const LiveSettings& settings() const { return workbench_.project().board(board_); }
 
@@ -124,12 +124,12 @@ private:
   LiveBanner* banner_ = nullptr;
   ReplayBar* replay_ = nullptr;
   SidePanel* panels_ = nullptr;
-  QWidget* views_ = nullptr; ///< all that stands beside the panels
+  QWidget* views_ = nullptr; ///< all views next to the panels
   QSplitter* upper_ = nullptr;
   QTabWidget* blockTabs_ = nullptr;
   QTabWidget* curveTabs_ = nullptr;
   LiveView* block_ = nullptr;
-  LiveTwin* twin_ = nullptr;
+  LiveModelView* modelView_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
   LiveCurves* curves_ = nullptr;
   LiveCalibration* calibration_ = nullptr;

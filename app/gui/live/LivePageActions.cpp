@@ -1,9 +1,9 @@
-// What the Live page does at a press of a button: tare, record, export, solve the twin.
+// What the buttons of the Live page do: tare, record, export, solve the model view.
 
 #include "app/gui/live/LiveCalibration.h"
 #include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LivePage.h"
-#include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/recordings/RecordingName.h"
 #include "app/gui/views/CsvExport.h"
@@ -80,8 +80,10 @@ void LivePage::exportFrames(const QString& file) {
 }
 
 void LivePage::exportRecording(const QString& file) {
-  RecordingTableRequest request{host_.settings().recording, file.toStdString(), host_.decoder(), {}, {}, true};
-  const bool known = host_.decoder() && designFingerprint(host_.sensor()) == host_.decoder()->designFingerprint;
+  RecordingTableRequest request{
+      host_.settings().recording, file.toStdString(), host_.network().decoder(), {}, {}, true};
+  const bool known =
+      host_.network().decoder() && designFingerprint(host_.sensor()) == host_.network().decoder()->designFingerprint;
   if (known) request.design = host_.sensor();
   request.head = sourceOf(*this).toStdString();
   exporter_.start(
@@ -133,9 +135,9 @@ QStringList LivePage::lossesByClosing() const {
   if (const int frames = unsavedFrames(); frames > 0)
     losses << tr("%1 labelled frames of this board are not saved. Use Save... under Calibration to keep them.")
                   .arg(frames);
-  if (host_.calibrated())
+  if (host_.network().calibrated())
     losses << tr("The network %1 is used only here and is not saved. Use Save network... under Calibration to keep it.")
-                  .arg(host_.networkName());
+                  .arg(host_.network().name());
   return losses;
 }
 
@@ -146,21 +148,22 @@ void LivePage::stopRecording() {
                    .arg(QString::fromStdString(host_.recordingFile().string())));
 }
 
-void LivePage::solveTwin() {
+void LivePage::solveModelView() {
   const LiveFrame* last = host_.history().lastValid();
   if (last == nullptr) {
     emit message(tr("No force has been decoded yet."));
     return;
   }
   const SensorDesign& sensor = host_.sensor();
-  const LoadCase load = host_.decoder() ? loadOf(last->forces, *host_.decoder(), sensor) : LoadCase{};
+  const LoadCase load =
+      host_.network().decoder() ? loadOf(last->forces, *host_.network().decoder(), sensor) : LoadCase{};
   if (load == LoadCase{}) {
     emit message(tr("No touch on the sensor: press it, then request the model view."));
     return;
   }
-  blockTabs_->setCurrentWidget(twin_);
+  blockTabs_->setCurrentWidget(modelView_);
   const bool own = sensor == workbench_.project().design;
-  twin_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
+  modelView_->solve(sensor, load, own ? workbench_.project().mesh : MeshOptions{}, last->change);
 }
 
 /// The Network scene is left to generate, train and save; what it needs for such a board is set.
@@ -180,7 +183,7 @@ void LivePage::prepareNetwork(const QString& rows) {
   workbench_.edit(tr("Select intact row-wires"), next);
   emit message(
       tr("The network is set to row-wires %1: generate samples, train it here, then press Use in Live.").arg(rows));
-  emit sceneAsked("network");
+  emit sceneRequested("network");
 }
 
 int LivePage::unsavedFrames() const {

@@ -5,8 +5,8 @@
 #include "app/gui/live/LiveCounters.h"
 #include "app/gui/live/LiveCurves.h"
 #include "app/gui/live/LiveDrawings.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LivePage.h"
-#include "app/gui/live/LiveTwin.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/live/panels/LiveControlPanel.h"
 #include "app/gui/live/panels/LiveSourcePanel.h"
@@ -26,7 +26,7 @@ namespace palp {
 namespace {
 
 constexpr double kColorSteps = 256;  // a smaller change of a cell is not seen
-constexpr int kNarrowViews_px = 640; // narrower views stand one above the other
+constexpr int kNarrowViews_px = 640; // narrower views are placed one above the other
 constexpr int kTower_px = 640;       // that four of them need to be read
 constexpr int kLowTower_px = 400;    // that three of them need
 
@@ -37,15 +37,16 @@ bool looksDifferent(const Eigen::MatrixXd& now, const Eigen::MatrixXd& drawn, do
   return ((now - drawn).array().abs() > step).any();
 }
 
-/// A recording of a simulated board says so in its reports; of which design a board is only the project says.
+/// A recording of a simulated board is marked so in its reports; the design of a board is known from the project only.
 DeviationNote noteOf(const LiveHost& host, const SensorDesign& project) {
   const LiveFrame* last = host.history().last();
-  if (!host.decoder() || last == nullptr) return {};
+  if (!host.network().decoder() || last == nullptr) return {};
   const bool simulated = host.simulated();
   const bool ofSimulation = simulated || (last->frame.flags & ReadingFlag::Simulated) != 0;
   const bool indenter = simulated && host.settings().simulation.moving && host.simulatesOwnDesign();
-  DeviationNote note = deviationNote(
-      *host.decoder(), {designFingerprint(simulated ? host.simulatedSensor() : project), ofSimulation, indenter});
+  DeviationNote note =
+      deviationNote(*host.network().decoder(),
+                    {designFingerprint(simulated ? host.simulatedSensor() : project), ofSimulation, indenter});
   if (note.wrong && simulated) note.sentence += "; \"Built-in\" under Network selects the one made for this board";
   return note;
 }
@@ -89,7 +90,7 @@ void LivePage::draw() {
 
 void LivePage::setTheme(Theme theme) {
   block_->setTheme(theme);
-  twin_->setTheme(theme);
+  modelView_->setTheme(theme);
   heatmap_->setTheme(theme);
   curves_->setTheme(theme);
 }
@@ -98,7 +99,7 @@ void LivePage::drawState() {
   const LiveStatus& status = host_.status();
   const bool simulated = host_.simulated();
   note_ = noteOf(host_, workbench_.project().design);
-  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.loading(), note_);
+  counters_->display(status, host_.history().last(), simulated, host_.replaying(), host_.network().loading(), note_);
   std::vector<LiveSourceState::Board> boards;
   for (const HidBoard& board : host_.boards()) boards.push_back({board, host_.free(board)});
   const int rowWires = status.info ? status.info->rowWires : host_.sensor().rowWires();
@@ -113,8 +114,8 @@ void LivePage::drawState() {
                              simulates.rowWires(), simulates.columnWires(), host_.simulator().running()});
   const SimulationSettings& hand = host_.settings().simulation;
   block_->setPressable(simulated && hand.held, hand.heldArea);
-  control_->displayState(
-      {status, host_.paused(), host_.replaying(), host_.recorded_s(), networkWords(host_), host_.networkBefore()});
+  control_->displayState({status, host_.paused(), host_.replaying(), host_.recorded_s(), networkWords(host_),
+                          host_.network().nameBefore()});
   send_->displayState(host_.sending());
   calibration_->displayState();
   banner_->display(host_, watch_.alarm(host_));

@@ -158,7 +158,7 @@ void LiveView::keyPressEvent(QKeyEvent* event) {
   }();
   const bool harder = event->key() == Qt::Key_Plus, softer = event->key() == Qt::Key_Minus;
   if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
-    emit handAsked();
+    emit handRequested();
   else if (pressable_ && placed_ && way)
     emit placeStepped(kPlaceStep_mm * Eigen::Vector2d((*way)[0], (*way)[1]));
   else if (pressable_ && way && event->modifiers().testFlag(Qt::ShiftModifier))

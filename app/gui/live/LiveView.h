@@ -6,7 +6,7 @@
 namespace palp {
 
 /// Force vectors over the sensor at rest; double click looks at all of it again. A touch on the simulated board is set
-/// by the mouse or by keys: Return takes it in hand and lets go, the arrows move it from area to area, + and - press
+/// by the mouse or by keys: Return takes or releases it, the arrows move it from area to area, + and - press
 /// harder and softer, Shift with the arrows shears.
 class LiveView : public VtkView {
   Q_OBJECT
@@ -36,14 +36,14 @@ public:
 signals:
   void areaPressed(int area);
   void placePressed(const Eigen::Vector2d& at_mm);
-  /// The place of the touch is to change by this.
+  /// The position of the touch is to change by this.
   void placeStepped(const Eigen::Vector2d& by_mm);
   /// How far the press was dragged over the top face, as a force by the scale of the arrows [N].
   void sheared(const Eigen::Vector2d& force_N);
   /// The force of the touch is to change by this [N].
   void forceStepped(const Eigen::Vector3d& by_N);
-  /// The touch is to be taken in hand, or let go.
-  void handAsked();
+  /// The touch is to be taken by hand, or released.
+  void handRequested();
 
 protected:
   void changeEvent(QEvent* event) override;
@@ -65,7 +65,7 @@ private:
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(const QPointF& place) const;
 
   std::unique_ptr<Parts> parts_;
-  /// The area beside the touch that an arrow key leads to.
+  /// The area next to the touch in the direction of an arrow key.
   [[nodiscard]] int areaBeside(int dx, int dy) const;
 
   bool pressable_ = false, placed_ = false;

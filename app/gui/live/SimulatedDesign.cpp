@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPerArea = 24; // as many as ship for the paper's design: a polynomial of degree 2 an area
 // Touches of the indenter over the face and its forces: what is read at one place has little to say two millimetres
-// beside it. A mesh of hexahedra cannot tell apart more than it has nodes.
+// next to it. A mesh of hexahedra cannot resolve more than it has nodes.
 constexpr int kMostToLearn = 1500, kFewestToLearn = 240;
 constexpr double kNoise = 5e-6;  // of a good board
 constexpr std::size_t kKept = 4; // designs
@@ -42,7 +42,7 @@ SampleSet withRest(const SampleSet& touches, const SensorDesign& design) {
   return all;
 }
 
-/// As many other touches of the same kind, as the board answers them: its network knows what it has to do with.
+/// As many other touches of the same kind, with the board's readings: its network is trained on what it will read.
 SampleSet answered(const SampleSet& board, const SensorDesign& design) {
   const MovingTouch response(board);
   const TouchRange touches = movingTouches(design);

@@ -13,7 +13,7 @@
 namespace palp {
 
 /// What the simulated board needs of a design that is not the paper's: solved samples, and a network for them. Solved
-/// when asked for; the last few designs are kept.
+/// on request; the last few designs are kept.
 class SimulatedDesign : public QObject {
   Q_OBJECT
 

@@ -1,5 +1,6 @@
 #include "app/gui/network/AdvancedOptions.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
@@ -33,7 +34,7 @@ public:
     return option_.set(tried, typedText(input)) ? Acceptable : Intermediate;
   }
   void fixup(QString& input) const override {
-    sayNotApplied(
+    showNotApplied(
         edit_, QObject::tr("Not applied: got \"%1\", expected %2").arg(input, QString::fromStdString(option_.allowed)));
     input = shown_;
   }
@@ -94,9 +95,8 @@ AdvancedOptions::AdvancedOptions(QWidget* parent) : QWidget(parent) {
   options_ = new QWidget;
   auto* form = new QFormLayout(options_);
   form->setContentsMargins(0, 0, 0, 0);
-  allCenters_ = new QCheckBox(tr("A centre on every sample"));
-  allCenters_->setObjectName("allCenters");
-  allCenters_->setToolTip(tr("Uses all samples as centres, regardless of their number"));
+  allCenters_ = checkBox(tr("A centre on every sample"), "allCenters",
+                         tr("Uses all samples as centres, regardless of their number"));
   form->addRow(QString(), allCenters_);
   for (const TrainOption& option : trainOptionTable())
     if (option.inForm) addField(*form, option);

@@ -5,6 +5,7 @@
 #include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,19 +18,16 @@ namespace palp {
 DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
   error_ = networkChart("trialsError");
   time_ = networkChart("trialsTime");
-  words_ = new QLabel;
-  words_->setObjectName("trialsWords");
-  words_->setWordWrap(true);
+  words_ = textLabel("trialsWords");
   table_ = new DataTable("decoders.csv");
   table_->setObjectName("trialsTable");
   table_->setAccessibleName(tr("Table of the decoders"));
-  train_ = new QPushButton(tr("Train the selected decoder"));
-  train_->setObjectName("trainMarked");
-  train_->setToolTip(tr("Trains the decoder of the selected row with the settings of the comparison; it is then shown "
-                        "and added to the trained networks"));
+  train_ = pushButton(tr("Train the selected decoder"), "trainMarked",
+                      tr("Trains the decoder of the selected row with the settings of the comparison; it is then shown "
+                         "and added to the trained networks"));
   connect(table_, &QTableWidget::itemSelectionChanged, this, &DecodersTab::displayMarked);
   connect(train_, &QPushButton::clicked, this, [this] {
-    if (const auto network = marked()) emit networkAsked(*network);
+    if (const auto network = marked()) emit networkRequested(*network);
   });
   auto* charts = new QSplitter(Qt::Horizontal);
   charts->addWidget(error_);
@@ -40,10 +38,7 @@ DecodersTab::DecodersTab(QWidget* parent) : QWidget(parent) {
   all->addWidget(table_);
   all->setSizes({340, 280});
   auto* column = new QVBoxLayout(this);
-  auto* bar = new QHBoxLayout;
-  bar->addWidget(words_, 1);
-  bar->addWidget(train_);
-  column->addLayout(bar);
+  column->addLayout(inRow({{words_, 1}, train_}));
   column->addWidget(all, 1);
 }
 
@@ -73,7 +68,7 @@ std::optional<NetworkSettings> DecodersTab::marked() const {
   const QList<QTableWidgetItem*> items = table_->selectedItems();
   if (items.isEmpty()) return {};
   const auto row = static_cast<std::size_t>(table_->dataRow(items.front()->row()));
-  return row < networks_.size() ? networks_[row] : std::nullopt; // the bound is no network
+  return row < networks_.size() ? networks_[row] : std::nullopt; // the bound is not a network
 }
 
 void DecodersTab::displayMarked() {

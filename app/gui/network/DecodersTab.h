@@ -28,7 +28,7 @@ public:
 
 signals:
   /// To train what the marked row was trained with.
-  void networkAsked(const NetworkSettings& network);
+  void networkRequested(const NetworkSettings& network);
 
 private:
   [[nodiscard]] std::optional<NetworkSettings> marked() const;

@@ -19,7 +19,7 @@ NoiseBound none() {
 NetworkBound::NetworkBound(NetworkSession& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled) return;
-    for (const auto& question : questions_) // who cancels wants none
+    for (const auto& question : questions_) // after Cancel none is shown
       if (!question->answer) question->answer = none();
     emit changed();
   });

@@ -10,8 +10,8 @@
 
 namespace palp {
 
-/// The Cramer-Rao bound at the noise that a network is tested with, beside its errors (NoiseBound.h): of the
-/// inputs that it reads, from the samples that are there, computed once for each input, rows and noise.
+/// The Cramer-Rao bound at the noise that a network is tested with, next to its errors (NoiseBound.h): of the
+/// inputs that it reads, from the loaded samples, computed once for each input, rows and noise.
 class NetworkBound : public QObject {
   Q_OBJECT
 

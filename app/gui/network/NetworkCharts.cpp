@@ -259,7 +259,7 @@ ChartSpec trialsErrorChart(const std::vector<DecoderTrial>& trials, const std::v
   }
   double from = sweep.empty() ? 0.3 : sweep.front().spread;
   double to = sweep.empty() ? 10 : sweep.back().spread;
-  for (const DecoderTrial& trial : trials) { // a point beside the others is no reason to cut it off
+  for (const DecoderTrial& trial : trials) { // a point far from the others is not cut off
     if (!trial.refusal.isEmpty() || trial.spread <= 0) continue;
     from = std::min(from, trial.spread);
     to = std::max(to, trial.spread);

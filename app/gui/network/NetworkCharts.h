@@ -15,7 +15,7 @@ ChartView* networkChart(const char* name);
 /// The spread of the smallest errors that the paper prints for this input.
 double paperSpread(InputKind input);
 
-/// Test error (Eq. 13) against spread, beside the paper's points for the same input.
+/// Test error (Eq. 13) against spread, with the paper's points for the same input.
 ChartSpec sweepErrorChart(const std::vector<SweepPoint>& points, const NetworkFit* fit, InputKind input);
 /// Leave-one-out error and condition of the system against spread.
 ChartSpec sweepLeaveOneOutChart(const std::vector<SweepPoint>& points);

@@ -14,7 +14,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kLong_s = 30; // that samples were made in, from which they are not given up without a word
+constexpr double kLong_s = 30; // samples that took longer are not discarded silently
 
 } // namespace
 
@@ -28,7 +28,7 @@ void NetworkFiles::openSamples() {
   if (!files.empty()) openSamples(files);
 }
 
-/// What is no file of samples is said before anything is asked.
+/// Reports a file without samples before any question.
 void NetworkFiles::openSamples(const std::vector<std::filesystem::path>& files) {
   try {
     for (const std::filesystem::path& file : files) requireSamples(file);
@@ -53,7 +53,8 @@ bool NetworkFiles::mayReplaceSamples() const {
 void NetworkFiles::saveSamples() {
   const QString file = askFileToSave(page_, tr("Save samples"), "samples.csv", tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
   if (file.isEmpty() || session_.samples() == nullptr) return;
-  const QString test = QString::fromStdString(testFileOf(file.toStdString()).string()); // of which nobody asked
+  const QString test =
+      QString::fromStdString(testFileOf(file.toStdString()).string()); // which the dialog does not cover
   if (QFileInfo::exists(test) &&
       QMessageBox::question(page_, tr("Save samples"),
                             tr("The test samples go into %1, which exists. Replace it?").arg(test)) != QMessageBox::Yes)
@@ -85,8 +86,8 @@ void NetworkFiles::takeIntoLive(const std::filesystem::path& network) {
   if (next.live.network == network.string()) emit liveNetworkReplaced();
   next.live.network = network.string();
   next.live.calibrated.reset();
-  workbench_.edit(tr("network"), next);
-  emit sceneAsked("live");
+  workbench_.edit(tr("Use a network in Live"), next);
+  emit sceneRequested("live");
 }
 
 void NetworkFiles::openNetwork() {

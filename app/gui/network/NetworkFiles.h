@@ -19,7 +19,7 @@ class NetworkFiles : public QObject {
   Q_OBJECT
 
 public:
-  /// Questions are asked above `page`, which owns it.
+  /// Questions are shown above `page`, which owns it.
   NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page);
 
   void openSamples();
@@ -32,14 +32,14 @@ public:
 
 signals:
   void problem(const QString& sentence);
-  void sceneAsked(const QString& scene);
+  void sceneRequested(const QString& scene);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 
 private:
   void takeIntoLive(const std::filesystem::path& network);
   [[nodiscard]] QString proposedName() const;
-  /// Samples that took long and stand in no file are not replaced without a word.
+  /// Samples that took long and are in no file are not replaced silently.
   [[nodiscard]] bool mayReplaceSamples() const;
 
   Workbench& workbench_;

@@ -13,6 +13,7 @@
 #include "app/gui/network/words/SamplesWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/window/SidePanel.h"
@@ -45,7 +46,7 @@ QSplitter* beside(std::initializer_list<QWidget*> widgets, Qt::Orientation orien
   return splitter;
 }
 
-/// A sweep is no part of what a network was trained with.
+/// A sweep is not part of what a network was trained with.
 NetworkSettings withSweepOf(const NetworkSettings& now, NetworkSettings network) {
   network.sweepFrom = now.sweepFrom;
   network.sweepTo = now.sweepTo;
@@ -65,43 +66,41 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
   row->addWidget(buildCharts(), 1);
 
   connect(panel_, &NetworkPanel::edited, this, &NetworkPage::edit);
-  connect(panel_, &NetworkPanel::generateAsked, this,
+  connect(panel_, &NetworkPanel::generateRequested, this,
           [this] { session_.generate(workbench_.project().samples, workbench_.project().mesh); });
-  connect(panel_, &NetworkPanel::trainAsked, this, [this] { session_.train(workbench_.project().network); });
-  connect(panel_, &NetworkPanel::sweepAsked, this, [this] {
+  connect(panel_, &NetworkPanel::trainRequested, this, [this] { session_.train(workbench_.project().network); });
+  connect(panel_, &NetworkPanel::sweepRequested, this, [this] {
     tabs_->setCurrentWidget(sweep_);
     session_.sweep(workbench_.project().network);
   });
-  connect(panel_, &NetworkPanel::compareAsked, this, [this] {
+  connect(panel_, &NetworkPanel::compareRequested, this, [this] {
     tabs_->setCurrentWidget(decoders_);
     session_.compare(workbench_.project().network);
   });
   connect(&workbench_, &Workbench::projectChanged, this, &NetworkPage::displayProject);
   connect(area_, &QSpinBox::valueChanged, this, [this](int area) {
-    Project next = workbench_.project();
-    next.view.testArea = area;
-    workbench_.edit(tr("Choose a test area"), next);
+    workbench_.edit(tr("Choose a test area"), [&](Project& next) { next.view.testArea = area; });
   });
-  connect(panel_, &NetworkPanel::openSamplesAsked, files_, [this] { files_->openSamples(); });
-  connect(panel_, &NetworkPanel::saveSamplesAsked, files_, &NetworkFiles::saveSamples);
+  connect(panel_, &NetworkPanel::openSamplesRequested, files_, [this] { files_->openSamples(); });
+  connect(panel_, &NetworkPanel::saveSamplesRequested, files_, &NetworkFiles::saveSamples);
   connect(save_, &QPushButton::clicked, files_, &NetworkFiles::saveNetwork);
   connect(open_, &QPushButton::clicked, files_, &NetworkFiles::openNetwork);
   connect(live_, &QPushButton::clicked, files_, &NetworkFiles::useInLive);
   connect(files_, &NetworkFiles::problem, this, &NetworkPage::showProblem);
-  connect(files_, &NetworkFiles::sceneAsked, this, &NetworkPage::sceneAsked);
+  connect(files_, &NetworkFiles::sceneRequested, this, &NetworkPage::sceneRequested);
   connect(files_, &NetworkFiles::liveNetworkReplaced, this, &NetworkPage::liveNetworkReplaced);
-  connect(sweep_, &SweepTab::spreadAsked, this, [this](double spread) {
+  connect(sweep_, &SweepTab::spreadRequested, this, [this](double spread) {
     NetworkSettings next = workbench_.project().network;
     next.chosenSpread = spread;
     next.automaticSpread = false;
     takeOver(tr("Take the best spread of the sweep"), next);
   });
-  connect(decoders_, &DecodersTab::networkAsked, this,
+  connect(decoders_, &DecodersTab::networkRequested, this,
           [this](const NetworkSettings& network) { takeOver(tr("Take a decoder of the comparison"), network); });
-  connect(trained_, &TrainedNetworks::goBackAsked, this, &NetworkPage::goBackTo);
-  connect(trained_, &TrainedNetworks::takeAwayAsked, &session_, &NetworkSession::takeAway);
-  connect(trained_, &TrainedNetworks::bringBackAsked, &session_, &NetworkSession::bringBack);
-  connect(trained_, &TrainedNetworks::nameAsked, &session_, &NetworkSession::rename);
+  connect(trained_, &TrainedNetworks::goBackRequested, this, &NetworkPage::goBackTo);
+  connect(trained_, &TrainedNetworks::removeRequested, &session_, &NetworkSession::takeAway);
+  connect(trained_, &TrainedNetworks::bringBackRequested, &session_, &NetworkSession::bringBack);
+  connect(trained_, &TrainedNetworks::nameRequested, &session_, &NetworkSession::rename);
   connectSession();
   displayProject();
   displaySamples();
@@ -157,7 +156,7 @@ void NetworkPage::showSentence(const QString& sentence, const char* role) {
   problem_->setVisible(!sentence.isEmpty());
 }
 
-/// The panel says how the samples that were opened were made, as far as their file does.
+/// The panel shows how the opened samples were made, as far as their file contains it.
 void NetworkPage::takeSampleSettings() {
   const NetworkSamples* samples = session_.samples();
   if (samples == nullptr || samples->training.origin.imported()) return;
@@ -174,7 +173,7 @@ void NetworkPage::takeSampleSettings() {
   workbench_.edit(tr("Open samples"), next);
 }
 
-/// Asked for by itself: what is trained stays in the list.
+/// Requested alone: what is trained stays in the list.
 void NetworkPage::takeOver(const QString& what, const NetworkSettings& network) {
   Project next = workbench_.project();
   next.network = withSweepOf(next.network, network);
@@ -198,23 +197,16 @@ QLayout* NetworkPage::buildBar() {
   auto* bar = new QHBoxLayout;
   auto* words = new QLabel(tr("Test area"));
   bar->addWidget(words);
-  area_ = new WholeBox;
-  area_->setObjectName("testArea");
-  area_->setToolTip(tr("Area whose test samples are plotted"));
+  area_ = wholeBox("testArea", {.whileTyping = true}, tr("Area whose test samples are plotted"));
   words->setBuddy(area_);
   bar->addWidget(area_);
   bar->addStretch(1);
-  save_ = new QPushButton(tr("Save network..."));
-  save_->setObjectName("saveNetwork");
-  save_->setToolTip(tr("Saves the network shown, for Live and for palp predict"));
-  open_ = new QPushButton(tr("Open network..."));
-  open_->setObjectName("openNetwork");
-  open_->setToolTip(tr("Opens a network from a file and evaluates it on the test samples"));
-  live_ = new QPushButton(tr("Use in Live..."));
-  live_->setObjectName("useInLive");
-  bar->addWidget(live_);
-  bar->addWidget(save_);
-  bar->addWidget(open_);
+  save_ =
+      pushButton(tr("Save network..."), "saveNetwork", tr("Saves the network shown, for Live and for palp predict"));
+  open_ = pushButton(tr("Open network..."), "openNetwork",
+                     tr("Opens a network from a file and evaluates it on the test samples"));
+  live_ = pushButton(tr("Use in Live..."), "useInLive");
+  addTo(*bar, {live_, save_, open_});
   return bar;
 }
 
@@ -233,10 +225,7 @@ QWidget* NetworkPage::buildCharts() {
   auto* rest = new QWidget;
   auto* column = new QVBoxLayout(rest);
   column->setContentsMargins(0, 0, 0, 0);
-  problem_ = new QLabel;
-  problem_->setObjectName("trainingProblem");
-  problem_->setProperty("role", "problem");
-  problem_->setWordWrap(true);
+  problem_ = textLabel("trainingProblem", "problem");
   keepRoom(*problem_);
   problem_->hide();
   column->addWidget(problem_);
@@ -321,7 +310,7 @@ void NetworkPage::displaySamples() {
   if (all > 0) words += tr(" Stopped at sample %1 of %2; it can be continued.").arg(made).arg(all);
   panel_->displaySamples(session_.upToDate(), words, all > 0);
   displayReadiness();
-  displayFit(); // it says whose it is and what comes next
+  displayFit(); // its text depends on the samples and on what runs next
 }
 
 void NetworkPage::displayReadiness() {

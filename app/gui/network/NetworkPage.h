@@ -26,7 +26,7 @@ class SweepTab;
 class TouchBounds;
 class TrainedNetworks;
 
-/// Samples, training and the sweep of the spread, with the paper's numbers beside.
+/// Samples, training and the sweep of the spread, with the paper's numbers.
 class NetworkPage : public Scene {
   Q_OBJECT
 
@@ -43,7 +43,7 @@ public:
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
-  void sceneAsked(const QString& scene);
+  void sceneRequested(const QString& scene);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 

@@ -5,27 +5,23 @@
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/SamplesBox.h"
 #include "app/gui/network/words/FitWords.h"
-#include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/WrappedLabel.h"
 #include "model/base/Error.h"
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QGroupBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QSlider>
-#include <QSpinBox>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -43,18 +39,13 @@ int stepOf(double spread) {
   return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * kSpreadSteps));
 }
 
-QDoubleSpinBox* spreadBox(const char* name) {
-  auto* box = new NumberBox;
-  box->setObjectName(name);
-  box->setRange(0.01, 1000);
-  box->setDecimals(3);
-  box->setKeyboardTracking(false);
-  return box;
-}
-
 } // namespace
 
-NetworkPanel::NetworkPanel(QWidget* parent) : QWidget(parent) {
+NetworkPanel::NetworkPanel(QWidget* parent)
+    : QWidget(parent), fields_([this](const QString& what, const NetworkSettings& next) {
+        if (!sliding_) ++slides_;
+        emit edited(what, samplesBox_->settings(), next);
+      }) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 6, 0);
   buildSamples(*column);
@@ -67,10 +58,10 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
   samplesBox_ = new SamplesBox;
   column.addWidget(samplesBox_);
   connect(samplesBox_, &SamplesBox::edited, this,
-          [this](const QString& what) { emit edited(what, samplesBox_->settings(), network_); });
-  connect(samplesBox_, &SamplesBox::generateAsked, this, &NetworkPanel::generateAsked);
-  connect(samplesBox_, &SamplesBox::openAsked, this, &NetworkPanel::openSamplesAsked);
-  connect(samplesBox_, &SamplesBox::saveAsked, this, &NetworkPanel::saveSamplesAsked);
+          [this](const QString& what) { emit edited(what, samplesBox_->settings(), fields_.settings()); });
+  connect(samplesBox_, &SamplesBox::generateRequested, this, &NetworkPanel::generateRequested);
+  connect(samplesBox_, &SamplesBox::openRequested, this, &NetworkPanel::openSamplesRequested);
+  connect(samplesBox_, &SamplesBox::saveRequested, this, &NetworkPanel::saveSamplesRequested);
 }
 
 void NetworkPanel::buildTraining(QVBoxLayout& column) {
@@ -81,40 +72,33 @@ void NetworkPanel::buildTraining(QVBoxLayout& column) {
   buildSpread(*form);
   advanced_ = new AdvancedOptions;
   form->addRow(advanced_);
-  connect(advanced_, &AdvancedOptions::edited, this, &NetworkPanel::read);
-  train_ = new QPushButton(tr("Train"));
-  train_->setObjectName("train");
+  connect(advanced_, &AdvancedOptions::edited, this, [this](const QString& what) {
+    fields_.edit(what, [this](NetworkSettings& network) { advanced_->read(network); });
+  });
+  train_ = pushButton(tr("Train"), "train");
   form->addRow(train_);
-  auto* follows = new WrappedLabel(
-      tr("Once there is a network, each change above trains immediately and is kept in the tab Trained networks."));
-  follows->setObjectName("trainsAtOnce");
-  follows->setProperty("role", "hint");
-  form->addRow(follows);
-  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainAsked);
+  form->addRow(wrappedLabel(
+      "trainsAtOnce", "hint",
+      tr("Once there is a network, each change above trains immediately and is kept in the tab Trained networks.")));
+  connect(train_, &QPushButton::clicked, this, &NetworkPanel::trainRequested);
   column.addWidget(box);
 }
 
 /// What the network reads.
 void NetworkPanel::buildInput(QFormLayout& form) {
-  input_ = new QComboBox;
-  input_->setObjectName("input");
-  input_->addItems({tr("Displacements (Table 1)"), tr("Resistances (Fig. 12)")});
-  form.addRow(tr("Input"), input_);
-  forLive_ = new QPushButton(tr("Set for a board (Live)"));
-  forLive_->setObjectName("forLive");
-  forLive_->setToolTip(
+  form.addRow(tr("Input"),
+              fields_.bind(choiceBox("input", {tr("Displacements (Table 1)"), tr("Resistances (Fig. 12)")}, {}),
+                           tr("Change the network's input"), &NetworkSettings::input));
+  forLive_ = pushButton(
+      tr("Set for a board (Live)"), "forLive",
       tr("Selects the resistances of all row-wires with the noise of the simulated board. A network of displacements "
          "cannot read a board, and a network trained without noise amplifies the noise."));
   form.addRow(QString(), forLive_);
   connect(forLive_, &QPushButton::clicked, this, &NetworkPanel::takeLiveSettings);
-  rows_ = new QLineEdit;
-  rows_->setObjectName("rows");
-  rows_->setToolTip(tr(
-      "Row-wires whose resistances or electrode displacements are read, counted from 0: 4, or 1,4,7, or 2-5, or all"));
+  rows_ = lineEdit("rows", tr("Row-wires whose resistances or electrode displacements are read, counted from 0: 4, or "
+                              "1,4,7, or 2-5, or all"));
   form.addRow(tr("Row-wires"), rows_);
-  rowsProblem_ = new WrappedLabel;
-  rowsProblem_->setObjectName("rowsProblem");
-  rowsProblem_->setProperty("role", "problem");
+  rowsProblem_ = wrappedLabel("rowsProblem", "problem");
   rowsProblem_->hide();
   rowsHint_ = new WrappedLabel(tr("Counted from 0: 4, or 1,4,7, or 2-5, or all"));
   rowsHint_->setProperty("role", "hint");
@@ -122,208 +106,167 @@ void NetworkPanel::buildInput(QFormLayout& form) {
   room->setMinimumHeight(2 * fontMetrics().lineSpacing());
   auto* column = new QVBoxLayout(room);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(rowsHint_);
-  column->addWidget(rowsProblem_);
-  column->addStretch(1);
+  addTo(*column, {rowsHint_, rowsProblem_, Part::stretch()});
   form.addRow(room);
-  connect(input_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's input")); });
   connect(rows_, &QLineEdit::editingFinished, this, [this] { readRows(); });
 }
 
-/// What it is, and the noise that it is trained with.
+/// The decoder and the noise that it is trained with.
 void NetworkPanel::buildNetwork(QFormLayout& form) {
-  mode_ = new QComboBox;
-  mode_->setObjectName("mode");
-  mode_->addItems({tr("Default"), tr("Paper")});
-  mode_->setToolTip(tr("Default: one global scale, linear tail, leave-one-out. Paper: as described in the paper."));
-  form.addRow(tr("Mode"), mode_);
-  decoder_ = new QComboBox;
-  decoder_->setObjectName("decoder");
-  for (const auto& [kind, text] : kDecoderKinds.all()) {
-    decoder_->addItem(QString::fromStdString(text));
-    decoder_->setItemData(decoder_->count() - 1, QString(traits(kind).description), Qt::ToolTipRole);
-  }
-  decoder_->setToolTip(
+  form.addRow(tr("Mode"), fields_.bind(choiceBox("mode", {tr("Default"), tr("Paper")},
+                                                 tr("Default: one global scale, linear tail, leave-one-out. Paper: as "
+                                                    "described in the paper.")),
+                                       tr("Change the network's mode"), &NetworkSettings::mode));
+  auto* decoder = choiceBox(
+      "decoder", {},
       tr("Method that maps the readings to the force: rbf is the paper's radial basis function network, ml is maximum "
          "likelihood, gp is a Gaussian process; the tab Decoders describes all"));
-  form.addRow(tr("Decoder"), decoder_);
-  target_ = new QComboBox;
-  target_->setObjectName("target");
-  target_->addItems({tr("Force"), tr("Force and position")});
-  target_->setToolTip(tr("Outputs of the decoder. The position is known for touches and for measured samples that "
-                         "include it. It needs all row-wires, as a single one cannot tell on which side of it a touch "
-                         "is. The decoder touch is made for both outputs and trains in about a minute."));
+  for (const auto& [kind, text] : kDecoderKinds.all()) {
+    decoder->addItem(QString::fromStdString(text));
+    decoder->setItemData(decoder->count() - 1, QString(traits(kind).description), Qt::ToolTipRole);
+  }
+  fields_.add(
+      decoder, &QComboBox::currentIndexChanged, tr("Change the decoder"),
+      [this, decoder] { decoder->setCurrentText(QString::fromStdString(name(fields_.settings().decoder))); },
+      [this](NetworkSettings& network, int index) {
+        const DecoderKind chosen = kDecoderKinds.all()[static_cast<std::size_t>(index)].first;
+        if (!traits(chosen).ofAreas && network.decoder != chosen)
+          targetBefore_ = std::exchange(network.target, DecoderTarget::ForceAndPlace);
+        else if (!traits(network.decoder).ofAreas && targetBefore_)
+          network.target = *std::exchange(targetBefore_, {});
+        network.decoder = chosen;
+      });
+  form.addRow(tr("Decoder"), decoder);
+  target_ = fields_.bind(
+      choiceBox("target", {tr("Force"), tr("Force and position")},
+                tr("Outputs of the decoder. The position is known for touches and for measured samples that include "
+                   "it. It needs all row-wires, as a single one cannot tell on which side of it a touch is. The "
+                   "decoder touch is made for both outputs and trains in about a minute.")),
+      tr("Change the outputs"), &NetworkSettings::target);
   form.addRow(tr("Outputs"), target_);
-  centers_ = new WholeBox;
-  centers_->setObjectName("centers");
-  centers_->setRange(0, 100000);
-  centers_->setSpecialValueText(tr("From mode"));
-  centers_->setKeyboardTracking(false);
-  centers_->setToolTip(
+  centers_ = wholeBox(
+      "centers", {.high = 100000, .special = tr("From mode")},
       tr("Number of centres of the radial basis functions; fewer centres than samples make a smoother network"));
+  fields_.add(
+      centers_, &QSpinBox::valueChanged, tr("Change the centres"),
+      [this] { centers_->setValue(fields_.settings().centers.value_or(0)); },
+      [](NetworkSettings& network, int centers) {
+        network.centers = centers > 0 ? std::optional(centers) : std::nullopt;
+      });
   form.addRow(tr("Centres"), centers_);
-  noise_ = new PercentBox;
-  noise_->setObjectName("noise");
-  noise_->setRange(0, 10);
-  noise_->setDecimals(8);
-  noise_->setKeyboardTracking(false);
-  noise_->setToolTip(
-      tr("Relative noise of each input in training, in percent or as a ratio with an exponent (1e-4 is 0.01 %)"));
-  form.addRow(tr("Noise"), noise_);
-  testNoise_ = new PercentBox;
-  testNoise_->setObjectName("testNoise");
-  testNoise_->setRange(0, 50);
-  testNoise_->setDecimals(8);
-  testNoise_->setKeyboardTracking(false);
-  testNoise_->setToolTip(tr("Relative noise of the test samples, separate from that of the training, in percent or as "
-                            "a ratio with an exponent (1e-4 is 0.01 %)"));
-  form.addRow(tr("Test noise"), testNoise_);
-  noiseWords_ = new WrappedLabel;
-  noiseWords_->setObjectName("noiseWords");
-  noiseWords_->setProperty("role", "hint");
+  form.addRow(tr("Noise"), fields_.bind(percentBox("noise", 10,
+                                                   tr("Relative noise of each input in training, in percent or as a "
+                                                      "ratio with an exponent (1e-4 is 0.01 %)")),
+                                        tr("Change the noise"), &NetworkSettings::noise, 100));
+  form.addRow(
+      tr("Test noise"),
+      fields_.bind(percentBox("testNoise", 50,
+                              tr("Relative noise of the test samples, separate from that of the training, in percent "
+                                 "or as a ratio with an exponent (1e-4 is 0.01 %)")),
+                   tr("Change the test noise"), &NetworkSettings::testNoise, 100));
+  noiseWords_ = wrappedLabel("noiseWords", "hint");
   form.addRow(QString(), noiseWords_);
-  connect(mode_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the network's mode")); });
-  connect(decoder_, &QComboBox::currentIndexChanged, this, [this] {
-    if (displaying_) return;
-    const QSignalBlocker quiet(target_); // one edit
-    const auto chosen = kDecoderKinds.value(decoder_->currentText().toStdString());
-    if (!traits(chosen).ofAreas && network_.decoder != chosen)
-      targetBefore_ = std::exchange(network_.target, DecoderTarget::ForceAndPlace);
-    else if (!traits(network_.decoder).ofAreas && targetBefore_)
-      network_.target = *std::exchange(targetBefore_, {});
-    target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
-    read(tr("Change the decoder"));
-  });
-  connect(target_, &QComboBox::currentIndexChanged, this, [this] { read(tr("Change the outputs")); });
-  connect(centers_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the centres")); });
-  connect(noise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the noise")); });
-  connect(testNoise_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the test noise")); });
 }
 
 void NetworkPanel::buildSpread(QFormLayout& form) {
-  automatic_ = new QCheckBox(tr("By leave-one-out"));
-  automatic_->setObjectName("automaticSpread");
-  spread_ = spreadBox("spread");
+  const QString what = tr("Change the spread");
+  automatic_ =
+      fields_.bind(checkBox(tr("By leave-one-out"), "automaticSpread"), what, &NetworkSettings::automaticSpread);
+  spread_ = addSpread("spread", what, &NetworkSettings::chosenSpread);
   spread_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed); // however many digits: the panel keeps its width
   spread_->setToolTip(tr("Spread of the Gaussians (radbas: half height at this distance, in scaled inputs)"));
   form.addRow(tr("Spread"), spread_);
-  paper_ = new QPushButton;
-  paper_->setObjectName("paperSpread");
-  auto* row = new QHBoxLayout;
-  row->addWidget(automatic_, 1);
-  row->addWidget(paper_);
-  form.addRow(row);
+  paper_ = pushButton(QString(), "paperSpread",
+                      tr("Sets the spread for which the paper prints its smallest errors from this input; the paper "
+                         "does not specify how it scaled the inputs"));
+  form.addRow(inRow({{automatic_, 1}, paper_}));
   spreadSlider_ = new QSlider(Qt::Horizontal);
   spreadSlider_->setObjectName("spreadSlider");
   spreadSlider_->setRange(0, kSpreadSteps);
   form.addRow(spreadSlider_);
-  connect(automatic_, &QCheckBox::toggled, this, [this] { read(tr("Change the spread")); });
-  connect(spread_, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the spread")); });
   connect(spreadSlider_, &QSlider::sliderPressed, this, [this] { ++slides_; });
   connect(spreadSlider_, &QSlider::valueChanged, this, [this](int step) {
-    if (displaying_) return;
     sliding_ = true;
     spread_->setValue(spreadAt(step));
     sliding_ = false;
   });
   connect(paper_, &QPushButton::clicked, this, [this] {
-    const QSignalBlocker quietBox(spread_), quietCheck(automatic_); // one edit
-    spread_->setValue(paperSpread(network_.input));
-    automatic_->setChecked(false);
-    read(tr("Take the paper's spread"));
+    fields_.edit(tr("Use the paper's spread"), [](NetworkSettings& network) {
+      network.chosenSpread = paperSpread(network.input);
+      network.automaticSpread = false;
+    });
   });
+}
+
+QDoubleSpinBox* NetworkPanel::addSpread(const QString& id, const QString& what, double NetworkSettings::*spread) {
+  auto* box = numberBox(id, {.low = 0.01, .high = 1000, .decimals = 3}, {});
+  return fields_.add(
+      box, &QDoubleSpinBox::valueChanged, what,
+      [this, box, spread] { showSixDigits(*box, fields_.settings().*spread); },
+      [box, spread](NetworkSettings& network, double /*value*/) {
+        network.*spread = readExactly(*box, network.*spread);
+        if (network.sweepFrom > network.sweepTo) std::swap(network.sweepFrom, network.sweepTo);
+      });
 }
 
 void NetworkPanel::buildSweep(QVBoxLayout& column) {
   auto* box = new QGroupBox(tr("Sweep of the spread"));
   auto* form = new QFormLayout(box);
-  from_ = spreadBox("sweepFrom");
-  to_ = spreadBox("sweepTo");
-  count_ = new WholeBox;
-  count_->setObjectName("sweepCount");
-  count_->setRange(2, 100);
-  count_->setSuffix(tr(" spreads"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(from_, 1);
-  row->addWidget(new QLabel(tr("to")));
-  row->addWidget(to_, 1);
-  form->addRow(row);
-  form->addRow(count_);
-  sweep_ = new QPushButton(tr("Sweep"));
-  sweep_->setObjectName("sweep");
+  const QString what = tr("Change the sweep");
+  auto* from = addSpread("sweepFrom", what, &NetworkSettings::sweepFrom);
+  auto* to = addSpread("sweepTo", what, &NetworkSettings::sweepTo);
+  form->addRow(inRow({{from, 1}, new QLabel(tr("to")), {to, 1}}));
+  form->addRow(
+      fields_.bind(wholeBox("sweepCount", {.low = 2, .high = 100, .unit = tr(" spreads"), .whileTyping = true}, {}),
+                   what, &NetworkSettings::sweepCount));
+  sweep_ = pushButton(tr("Sweep"), "sweep");
   form->addRow(sweep_);
-  compare_ = new QPushButton(tr("Compare all decoders"));
-  compare_->setObjectName("compare");
+  compare_ = pushButton(tr("Compare all decoders"), "compare");
   form->addRow(compare_);
   column.addWidget(box);
-  for (QDoubleSpinBox* spin : {from_, to_})
-    connect(spin, &QDoubleSpinBox::valueChanged, this, [this] { read(tr("Change the sweep")); });
-  connect(count_, &QSpinBox::valueChanged, this, [this] { read(tr("Change the sweep")); });
-  connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepAsked);
-  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareAsked);
+  connect(sweep_, &QPushButton::clicked, this, &NetworkPanel::sweepRequested);
+  connect(compare_, &QPushButton::clicked, this, &NetworkPanel::compareRequested);
 }
 
 void NetworkPanel::display(const Project& project, int rowWires) {
-  displaying_ = true;
   samplesBox_->display(project.samples, project.design, project.mesh);
-  network_ = project.network;
-  input_->setCurrentIndex(network_.input == InputKind::Displacement ? 0 : 1);
-  mode_->setCurrentIndex(network_.mode == DecoderMode::Default ? 0 : 1);
-  decoder_->setCurrentText(QString::fromStdString(name(network_.decoder)));
-  target_->setCurrentIndex(network_.target == DecoderTarget::Force ? 0 : 1);
-  // The decoder of touches learns both; an older file may say otherwise.
-  target_->setEnabled(traits(network_.decoder).ofAreas || network_.target == DecoderTarget::Force);
-  rows_->setText(QString::fromStdString(network_.rows));
+  const NetworkSettings& network = project.network;
+  fields_.display(network);
+  // The decoder of touches learns both; an older file may have another setting.
+  target_->setEnabled(traits(network.decoder).ofAreas || network.target == DecoderTarget::Force);
+  rows_->setText(QString::fromStdString(network.rows));
   rowWires_ = rowWires;
   showRowsProblem({});
-  showExactly(*testNoise_, 100 * network_.testNoise);
-  advanced_->display(network_);
-  centers_->setValue(network_.centers.value_or(0));
-  showExactly(*noise_, 100 * network_.noise);
-  automatic_->setChecked(network_.automaticSpread);
-  showSixDigits(*from_, network_.sweepFrom);
-  showSixDigits(*to_, network_.sweepTo);
-  count_->setValue(network_.sweepCount);
+  advanced_->display(network);
   boardNoise_ = std::max(project.live.simulation.noise, kLeastNoise);
-  forLive_->setEnabled(!readableLive());
+  forLive_->setEnabled(network.input != InputKind::Resistance || network.rows != "all" || network.noise < boardNoise_);
   showSpread();
   showNoise();
-  displaying_ = false;
-}
-
-bool NetworkPanel::readableLive() const {
-  return network_.input == InputKind::Resistance && network_.rows == "all" && network_.noise >= boardNoise_;
 }
 
 void NetworkPanel::takeLiveSettings() {
-  displaying_ = true; // one edit
-  input_->setCurrentIndex(1);
-  rows_->setText("all");
-  showRowsProblem({});
-  noise_->setValue(100 * boardNoise_);
-  testNoise_->setValue(100 * boardNoise_);
-  displaying_ = false;
-  read(tr("Set the network for a board"));
+  fields_.edit(tr("Set the network for a board"), [this](NetworkSettings& network) {
+    network.input = InputKind::Resistance;
+    network.rows = "all";
+    network.noise = network.testNoise = boardNoise_;
+  });
 }
 
 void NetworkPanel::showNoise() {
   const auto noiseIn = [](double share) { return share > 0 ? percentWords(share) : tr("no noise"); };
-  noiseWords_->say(tr("trained with: %1; tested with: %2").arg(noiseIn(network_.noise), noiseIn(network_.testNoise)));
+  noiseWords_->say(tr("trained with: %1; tested with: %2")
+                       .arg(noiseIn(fields_.settings().noise), noiseIn(fields_.settings().testNoise)));
 }
 
 void NetworkPanel::showSpread() {
-  const bool rbf = traits(network_.decoder).hasRbf;
-  const QString paper = QString::number(paperSpread(network_.input), 'g', 4);
-  paper_->setText(tr("Paper's: %1").arg(paper));
-  paper_->setToolTip(tr("Sets the spread for which the paper prints its smallest errors from this input; the paper "
-                        "does not say how it scaled the inputs"));
-  paper_->setEnabled(rbf);
-  automatic_->setEnabled(rbf);
-  centers_->setEnabled(rbf);
-  showSixDigits(*spread_, network_.chosenSpread);
-  spreadSlider_->setValue(stepOf(network_.chosenSpread));
-  spread_->setEnabled(rbf && !network_.automaticSpread);
-  spreadSlider_->setEnabled(rbf && !network_.automaticSpread);
+  const NetworkSettings& network = fields_.settings();
+  const bool rbf = traits(network.decoder).hasRbf;
+  paper_->setText(tr("Paper's: %1").arg(QString::number(paperSpread(network.input), 'g', 4)));
+  for (QWidget* widget : std::initializer_list<QWidget*>{paper_, automatic_, centers_}) widget->setEnabled(rbf);
+  const QSignalBlocker quiet(spreadSlider_);
+  spreadSlider_->setValue(stepOf(network.chosenSpread));
+  for (QWidget* widget : std::initializer_list<QWidget*>{spread_, spreadSlider_})
+    widget->setEnabled(rbf && !network.automaticSpread);
 }
 
 void NetworkPanel::displaySamples(bool there, const QString& words, bool goOn) {
@@ -355,37 +298,16 @@ void NetworkPanel::showRowsProblem(const QString& sentence) {
 
 /// Rows that the design does not have stay in the field and are not used.
 void NetworkPanel::readRows() {
-  if (displaying_) return;
   try {
     rowsNamed(rows_->text().trimmed().toStdString(), rowWires_);
   } catch (const Error& error) {
     showRowsProblem(tr("%1. The network uses %2.")
-                        .arg(QString::fromStdString(error.what()), QString::fromStdString(network_.rows)));
+                        .arg(QString::fromStdString(error.what()), QString::fromStdString(fields_.settings().rows)));
     return;
   }
   showRowsProblem({});
-  read(tr("Change the row-wires"));
-}
-
-void NetworkPanel::read(const QString& what) {
-  if (displaying_) return;
-  if (!sliding_) ++slides_;
-  network_.input = input_->currentIndex() == 0 ? InputKind::Displacement : InputKind::Resistance;
-  network_.mode = mode_->currentIndex() == 0 ? DecoderMode::Default : DecoderMode::Paper;
-  network_.decoder = kDecoderKinds.value(decoder_->currentText().toStdString());
-  network_.target = target_->currentIndex() == 0 ? DecoderTarget::Force : DecoderTarget::ForceAndPlace;
-  network_.testNoise = readExactly(*testNoise_, network_.testNoise, true);
-  advanced_->read(network_);
-  if (rowsProblem_->isHidden()) network_.rows = rows_->text().trimmed().toStdString();
-  network_.centers = centers_->value() > 0 ? std::optional(centers_->value()) : std::nullopt;
-  network_.noise = readExactly(*noise_, network_.noise, true);
-  network_.automaticSpread = automatic_->isChecked();
-  network_.chosenSpread = readExactly(*spread_, network_.chosenSpread);
-  const double from = readExactly(*from_, network_.sweepFrom), to = readExactly(*to_, network_.sweepTo);
-  network_.sweepFrom = std::min(from, to);
-  network_.sweepTo = std::max(from, to);
-  network_.sweepCount = count_->value();
-  emit edited(what, samplesBox_->settings(), network_);
+  fields_.edit(tr("Change the row-wires"),
+               [this](NetworkSettings& network) { network.rows = rows_->text().trimmed().toStdString(); });
 }
 
 } // namespace palp

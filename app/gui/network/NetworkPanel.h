@@ -1,20 +1,17 @@
 #pragma once
 
 #include "app/gui/project/Project.h"
+#include "app/gui/widgets/FieldBindings.h"
 
 #include <QWidget>
 
 #include <optional>
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
 class QSlider;
-class QSpinBox;
 class QVBoxLayout;
 
 namespace palp {
@@ -33,7 +30,7 @@ public:
   /// Emits nothing.
   /// `rowWires`: of the samples, or else of the design.
   void display(const Project& project, int rowWires);
-  /// What there is to work with, and the state of the samples in words.
+  /// What there is to work with, and the state of the samples as text.
   void displaySamples(bool there, const QString& words, bool goOn);
   /// Whether networks can be trained: there are samples, and none are being made.
   void displayReadiness(bool there, bool beingMade);
@@ -46,12 +43,12 @@ public:
 signals:
   /// By the user's hand only.
   void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
-  void generateAsked();
-  void openSamplesAsked();
-  void saveSamplesAsked();
-  void trainAsked();
-  void sweepAsked();
-  void compareAsked();
+  void generateRequested();
+  void openSamplesRequested();
+  void saveSamplesRequested();
+  void trainRequested();
+  void sweepRequested();
+  void compareRequested();
 
 private:
   void buildSamples(QVBoxLayout& column);
@@ -60,23 +57,18 @@ private:
   void buildNetwork(QFormLayout& form);
   void buildSpread(QFormLayout& form);
   void buildSweep(QVBoxLayout& column);
-  void read(const QString& what);
+  QDoubleSpinBox* addSpread(const QString& id, const QString& what, double NetworkSettings::*spread);
   void readRows();
   void showRowsProblem(const QString& sentence);
   void showSpread();
   void showNoise();
   void takeLiveSettings();
-  [[nodiscard]] bool readableLive() const;
 
-  NetworkSettings network_;
-  bool displaying_ = false;
+  FieldBindings<NetworkSettings> fields_;
   bool sliding_ = false;
   int slides_ = 0; ///< another one after each press of the slider and each other edit
   SamplesBox* samplesBox_ = nullptr;
-  QComboBox* input_ = nullptr;
   QPushButton* forLive_ = nullptr;
-  QComboBox* mode_ = nullptr;
-  QComboBox* decoder_ = nullptr;
   QComboBox* target_ = nullptr;
   std::optional<DecoderTarget> targetBefore_; ///< the decoder of touches was chosen, which learns both
   QLineEdit* rows_ = nullptr;
@@ -90,13 +82,8 @@ private:
   QPushButton* paper_ = nullptr;
   WrappedLabel* noiseWords_ = nullptr;
   QSpinBox* centers_ = nullptr;
-  QDoubleSpinBox* noise_ = nullptr;
-  QDoubleSpinBox* testNoise_ = nullptr;
   AdvancedOptions* advanced_ = nullptr;
   QPushButton* train_ = nullptr;
-  QDoubleSpinBox* from_ = nullptr;
-  QDoubleSpinBox* to_ = nullptr;
-  QSpinBox* count_ = nullptr;
   QPushButton* sweep_ = nullptr;
   QPushButton* compare_ = nullptr;
 };

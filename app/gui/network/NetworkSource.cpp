@@ -48,7 +48,7 @@ public:
     reasons_ << staleListReason(session_);
   }
 
-  /// To be run: what is no command is a remark.
+  /// To be run: a line that is not a command is a remark.
   [[nodiscard]] QString commands() const {
     QStringList reasons = reasons_;
     reasons.removeAll(QString());
@@ -116,7 +116,7 @@ QString commandsOfShown(const Project& now, const NetworkSession& session, const
 
 QString networkSource(const QString& saved, const Project& now, const NetworkSession& session) {
   NetworkSource source(now, session);
-  if (saved == "sweepError") { // the network that is shown stands among the points of the sweep
+  if (saved == "sweepError") { // the network that is shown is among the points of the sweep
     const InputKind input = session.sweepPoints().empty() ? now.network.input : session.sweepSettings().input;
     source.addSweep();
     if (session.fit() != nullptr && session.fit()->settings.input == input) source.addShown();

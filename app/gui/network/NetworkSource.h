@@ -10,7 +10,7 @@ namespace palp {
 /// with the settings of its own run, and why these numbers are not of what is set now. `saved`: its object name.
 QString networkSource(const QString& saved, const Project& now, const NetworkSession& session);
 
-/// Commands that make the samples, the network and the sweep that are shown; those that the fields stand for where
+/// Commands that make the samples, the network and the sweep that are shown; those of the fields where
 /// there is no network.
 QString commandsOfShown(const Project& now, const NetworkSession& session, const QString& designFile);
 

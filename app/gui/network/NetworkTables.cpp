@@ -15,7 +15,7 @@ namespace {
 
 const QStringList kForceNames{"Fx", "Fy", "Fz"};
 
-/// "-": no number says it, as of a force that is 0 in all samples.
+/// "-": undefined, as for a force that is 0 in all samples.
 QString number(double value) {
   return std::isnan(value) ? QString("-") : QString::number(value, 'g', 6);
 }

@@ -1,18 +1,14 @@
 #pragma once
 
 #include "app/gui/project/Project.h"
+#include "app/gui/widgets/FieldBindings.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QGroupBox>
 
-#include <array>
-
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QPushButton;
-class QSpinBox;
 
 namespace palp {
 
@@ -27,44 +23,40 @@ public:
 
   /// Emits nothing.
   void display(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh);
-  /// Whether there are some, their state in words, and whether a generation goes on where it was stopped.
+  /// Whether there are some, their state as text, and whether a generation continues where it was stopped.
   void displayState(bool there, const QString& words, bool goOn);
-  [[nodiscard]] const SampleSettings& settings() const { return samples_; }
+  [[nodiscard]] const SampleSettings& settings() const { return fields_.settings(); }
 
 signals:
   /// By the user's hand only.
   void edited(const QString& what);
-  void generateAsked();
-  void openAsked();
-  void saveAsked();
+  void generateRequested();
+  void openRequested();
+  void saveRequested();
 
 private:
-  using Pair = std::array<QDoubleSpinBox*, 2>;
+  template <class Value> auto of(Value TouchSampling::*member);
   void buildTouches();
   void buildFiles();
-  QDoubleSpinBox* number(const char* name, const QString& label, double low, double high, const QString& unit);
-  Pair range(const char* name, const QString& label, double high, const QString& unit, const QString& tip);
-  void read(const QString& what);
+  QWidget* range(const char* name, const QString& label, NumberForm form, double TouchSampling::*least,
+                 double TouchSampling::*most, const QString& tip);
   void readKind();
-  void showTouches();
   void check();
 
-  SampleSettings samples_;
-  TouchSampling touches_; ///< while forces on areas are chosen: those of before
+  FieldBindings<SampleSettings> fields_;
+  TouchSampling touches_; ///< as they were set last, also while forces on areas are sampled
   SensorDesign design_;
   MeshOptions mesh_;
-  bool displaying_ = false;
   QFormLayout* form_ = nullptr;
   QComboBox* kind_ = nullptr;
   QLabel* countLabel_ = nullptr;
   QSpinBox* perArea_ = nullptr;
   QSpinBox* count_ = nullptr;
   QComboBox* shape_ = nullptr;
-  Pair radius_{}, press_{}, friction_{};
+  QWidget *radius_ = nullptr, *press_ = nullptr, *friction_ = nullptr; ///< rows with minimum and maximum
   QDoubleSpinBox* rim_ = nullptr;
   QDoubleSpinBox* margin_ = nullptr;
   QLabel* problem_ = nullptr;
-  QSpinBox* seed_ = nullptr;
   QCheckBox* surrogate_ = nullptr;
   WrappedLabel* planned_ = nullptr;
   QPushButton* generate_ = nullptr;

@@ -5,6 +5,7 @@
 #include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/DataTable.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -19,19 +20,14 @@ SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
   leaveOneOut_ = networkChart("leaveOneOut");
   condition_ = networkChart("condition");
   time_ = networkChart("errorTime");
-  words_ = new QLabel;
-  words_->setObjectName("sweepWords");
-  words_->setWordWrap(true);
-  best_ = new QPushButton(tr("Take the best spread"));
-  best_->setObjectName("bestSpread");
-  best_->setToolTip(
+  words_ = textLabel("sweepWords");
+  best_ = pushButton(
+      tr("Take the best spread"), "bestSpread",
       tr("Sets the spread with the smallest test error of the sweep (bold in the table) and trains with it"));
   table_ = new DataTable("sweep.csv");
   table_->setObjectName("sweepTable");
   table_->setAccessibleName(tr("Table of the sweep"));
-  auto* bar = new QHBoxLayout;
-  bar->addWidget(words_, 1);
-  bar->addWidget(best_);
+  auto* bar = inRow({{words_, 1}, best_});
   auto* list = new QWidget;
   auto* below = new QVBoxLayout(list);
   below->setContentsMargins(0, 0, 0, 0);
@@ -46,7 +42,7 @@ SweepTab::SweepTab(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(all);
-  connect(best_, &QPushButton::clicked, this, [this] { emit spreadAsked(bestSpread_); });
+  connect(best_, &QPushButton::clicked, this, [this] { emit spreadRequested(bestSpread_); });
 }
 
 void SweepTab::display(const NetworkSession& session, const NetworkSettings& now) {

@@ -24,7 +24,7 @@ public:
 
 signals:
   /// To train with that of the smallest error.
-  void spreadAsked(double spread);
+  void spreadRequested(double spread);
 
 private:
   ChartView* error_ = nullptr;

@@ -8,7 +8,7 @@ namespace palp {
 TouchBounds::TouchBounds(NetworkSession& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (!cancelled || bounds_) return;
-    bounds_.emplace(); // who cancels wants none
+    bounds_.emplace(); // after Cancel none is shown
     emit changed();
   });
 }

@@ -11,7 +11,7 @@
 namespace palp {
 
 /// What no estimate without a bias can beat with the noise that a network of touches is tested with, at each touch of
-/// the test: computed once for the samples that are there and a noise (touchBounds), and once for the network that is
+/// the test: computed once for the loaded samples and a noise (touchBounds), and once for the network that is
 /// shown by what it has learned (learnedBounds).
 class TouchBounds : public QObject {
   Q_OBJECT
@@ -20,7 +20,7 @@ public:
   explicit TouchBounds(NetworkSession& session, QObject* parent = nullptr);
 
   /// Of the network that is shown. Null where there is no noise of the test, where not all resistances are read, where
-  /// the samples are no touches of the design, or while it is computed: then changed() follows. Empty where there is
+  /// the samples are not touches of the design, or while it is computed: then changed() follows. Empty where there is
   /// none.
   const SampleBounds* ofTheShown();
   [[nodiscard]] JobRunner& runner() { return runner_; }

@@ -3,6 +3,7 @@
 #include "app/gui/network/NetworkTables.h"
 #include "app/gui/network/words/FitWords.h"
 #include "app/gui/views/DataTable.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -16,10 +17,7 @@
 namespace palp {
 
 TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
-  words_ = new QLabel;
-  words_->setObjectName("trainedWords");
-  words_->setProperty("role", "hint");
-  words_->setWordWrap(true);
+  words_ = textLabel("trainedWords", "hint");
   list_ = new DataTable("networks.csv");
   list_->setObjectName("trainedNetworks");
   list_->setAccessibleName(tr("Trained networks"));
@@ -27,42 +25,31 @@ TrainedNetworks::TrainedNetworks(QWidget* parent) : QWidget(parent) {
   list_->setAlternatingRowColors(true);
   list_->setToolTip(tr("Enter or a double click restores a network with its training settings, F2 names it, a click on "
                        "a column head sorts, and a right click saves the list as CSV."));
-  back_ = new QPushButton(tr("Restore"));
-  back_->setObjectName("goBack");
-  back_->setToolTip(
+  back_ = pushButton(
+      tr("Restore"), "goBack",
       tr("Shows the selected network again with its settings, and its design if that has changed; this can be undone"));
-  away_ = new QPushButton(tr("Remove"));
-  away_->setObjectName("takeAway");
-  away_->setToolTip(tr("Removes the selected networks from the list; the network shown stays shown"));
-  return_ = new QPushButton(tr("Undo remove"));
-  return_->setObjectName("bringBack");
-  return_->setToolTip(tr("Returns the networks removed last to their place in the list"));
-  name_ = new QLineEdit;
-  name_->setObjectName("networkName");
+  away_ = pushButton(tr("Remove"), "takeAway",
+                     tr("Removes the selected networks from the list; the network shown stays shown"));
+  return_ =
+      pushButton(tr("Undo remove"), "bringBack", tr("Returns the networks removed last to their place in the list"));
+  name_ =
+      lineEdit("networkName",
+               tr("Name in the list, saved with the project; a network with a name is never dropped from the list"));
   name_->setMaxLength(80);
   name_->setPlaceholderText(tr("Name of the selected network (F2)"));
-  name_->setToolTip(
-      tr("Name in the list, saved with the project; a network with a name is never dropped from the list"));
   auto* nameWords = new QLabel(tr("Name"));
   nameWords->setBuddy(name_);
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(back_);
-  buttons->addWidget(away_);
-  buttons->addWidget(return_);
-  buttons->addWidget(nameWords);
-  buttons->addWidget(name_, 1);
+  auto* buttons = inRow({back_, away_, return_, nameWords, {name_, 1}});
   auto* column = new QVBoxLayout(this);
-  column->addWidget(words_);
-  column->addWidget(list_, 1);
-  column->addLayout(buttons);
+  addTo(*column, {words_, {list_, 1}, buttons});
   connect(list_, &DataTable::itemActivated, this, &TrainedNetworks::ask);
   connect(list_, &DataTable::currentCellChanged, this, [this](int row, int, int before, int) {
     if (row != before) displayChosen();
   });
   connect(back_, &QPushButton::clicked, this, &TrainedNetworks::ask);
   connect(list_, &DataTable::itemSelectionChanged, this, &TrainedNetworks::displayAway);
-  connect(away_, &QPushButton::clicked, this, [this] { emit takeAwayAsked(marked()); });
-  connect(return_, &QPushButton::clicked, this, &TrainedNetworks::bringBackAsked);
+  connect(away_, &QPushButton::clicked, this, [this] { emit removeRequested(marked()); });
+  connect(return_, &QPushButton::clicked, this, &TrainedNetworks::bringBackRequested);
   connect(name_, &QLineEdit::editingFinished, this, &TrainedNetworks::askName);
   connect(name_, &QLineEdit::returnPressed, list_, [this] { list_->setFocus(); });
   auto* keys = new QShortcut(Qt::Key_F2, list_);
@@ -83,7 +70,7 @@ std::set<std::size_t> TrainedNetworks::marked() const {
   return rows;
 }
 
-/// How many go is said before they do.
+/// Shows how many will be removed before it happens.
 void TrainedNetworks::displayAway() {
   const std::size_t count = marked().size();
   away_->setText(count > 1 ? tr("Remove %1").arg(count) : tr("Remove"));
@@ -91,12 +78,12 @@ void TrainedNetworks::displayAway() {
 }
 
 void TrainedNetworks::ask() {
-  if (chosen() >= 0) emit goBackAsked(static_cast<std::size_t>(chosen()));
+  if (chosen() >= 0) emit goBackRequested(static_cast<std::size_t>(chosen()));
 }
 
 void TrainedNetworks::askName() {
   if (chosen() >= 0 && name_->isModified())
-    emit nameAsked(static_cast<std::size_t>(chosen()), name_->text().simplified());
+    emit nameRequested(static_cast<std::size_t>(chosen()), name_->text().simplified());
   name_->setModified(false);
 }
 
@@ -113,7 +100,7 @@ void TrainedNetworks::display(const NetworkSession& session) {
   shown_.clear();
   int now = -1;
   for (const auto& fit : session.kept()) {
-    if (fit->made == before) now = static_cast<int>(shown_.size()); // the network, wherever it stands now
+    if (fit->made == before) now = static_cast<int>(shown_.size()); // the network, whatever its row is now
     shown_.emplace_back(fit->made, fit->name);
   }
   return_->setEnabled(session.canBringBack());

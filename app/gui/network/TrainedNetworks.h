@@ -16,7 +16,7 @@ namespace palp {
 
 class DataTable;
 
-/// The networks of this design that were trained or opened, with their errors: the way back to each, and their names.
+/// The networks of this design that were trained or opened, with their errors and names; restores each of them.
 class TrainedNetworks : public QWidget {
   Q_OBJECT
 
@@ -27,10 +27,10 @@ public:
   void display(const NetworkSession& session);
 
 signals:
-  void goBackAsked(std::size_t network);
-  void takeAwayAsked(const std::set<std::size_t>& networks);
-  void bringBackAsked();
-  void nameAsked(std::size_t network, const QString& name);
+  void goBackRequested(std::size_t network);
+  void removeRequested(const std::set<std::size_t>& networks);
+  void bringBackRequested();
+  void nameRequested(std::size_t network, const QString& name);
 
 private:
   void ask();

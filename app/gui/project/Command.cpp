@@ -14,7 +14,7 @@ QString triple(const Eigen::Vector3d& values) {
 
 QString trainOptions(const NetworkSettings& network) {
   TrainOptions options = network.trainOptions();
-  options.spread.reset(); // said apart: a sweep has many
+  options.spread.reset(); // an option of its own: a sweep has many
   return QString::fromStdString(asCommand(options));
 }
 

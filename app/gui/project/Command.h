@@ -14,7 +14,7 @@ QString meshCommands(const Project& project, const QString& designFile);
 /// The solve, and the picture of the block.
 QString solveCommands(const Project& project, const QString& designFile);
 QString networkCommands(const Project& project, const QString& designFile);
-/// Its parts: samples for training and testing, one network in `file` and what it says of the test, the sweep.
+/// Its parts: samples for training and testing, one network in `file` and its predictions of the test, the sweep.
 QString sampleCommands(const Project& project, const QString& designFile);
 QString trainCommands(const NetworkSettings& network, const QString& designFile, const QString& file);
 QString predictCommand(const NetworkSettings& network, const QString& file);

@@ -57,7 +57,7 @@ struct DesignSweepCurve {
   bool operator==(const DesignSweepCurve&) const = default;
 };
 
-/// Two designs beside each other.
+/// Two designs compared.
 struct DesignsCompared {
   SensorDesign earlier, now;
   std::string name; ///< of the earlier one

@@ -1,8 +1,8 @@
 #include "app/gui/project/ExportLines.h"
 
-#include "io/DesignFile.h"
+#include "app/gui/project/JsonFields.h"
+#include "model/SensorDesign.h"
 
-#include <QJsonDocument>
 #include <QStringList>
 
 namespace palp {
@@ -15,8 +15,7 @@ QString staleLine(const QString& stale) {
 QString exportLines(const QString& commands, const SensorDesign& design, const QString& stale) {
   QString text;
   for (const QString& command : commands.split('\n', Qt::SkipEmptyParts)) text += "# " + command + "\n";
-  const QJsonDocument json = QJsonDocument::fromJson(QByteArray::fromStdString(toJson(design)));
-  return text + "# design " + QString::fromUtf8(json.toJson(QJsonDocument::Compact)) + "\n" + staleLine(stale);
+  return text + "# design " + QString::fromStdString(jsonText(jsonOf(design))) + "\n" + staleLine(stale);
 }
 
 } // namespace palp

@@ -7,7 +7,7 @@
 namespace palp {
 
 /// Lines after a "#" that say what a table was made with: the palp commands of its scene that take `sensor.json`, the
-/// design, and whether both still hold. Most programs that read tables can be told to pass over them. `stale`: why the
+/// design, and whether both still hold. Most programs that read tables can skip them. `stale`: why the
 /// table is not of what is set now; empty where it is.
 QString exportLines(const QString& commands, const SensorDesign& design, const QString& stale);
 

@@ -27,14 +27,14 @@ FileKind fileKind(const QString& file) {
   if (head.startsWith("# palp_samples") || head.startsWith("\x89HDF\r\n")) return FileKind::Samples;
   if (head.startsWith("PK") && head.contains(".npy")) return FileKind::Samples;
   if (head.startsWith('#')) return FileKind::Foreign; // a table that Palp wrote names its design, too
-  // A project holds a design, as a study may: the outer key counts, which may stand behind whatever else there is.
+  // A project holds a design, as a study may: the outer key counts, which may come after all other keys.
   if (head.trimmed().startsWith('{')) head += source.readAll();
   constexpr std::array keys{
       std::pair{"\"palp_project\"", FileKind::Project}, std::pair{"\"palp_network\"", FileKind::Network},
       std::pair{"\"palp_study\"", FileKind::Study}, std::pair{"\"palp_design\"", FileKind::Design}};
   for (const auto& [key, kind] : keys)
     if (head.contains(key)) return kind;
-  // It may be one of ours that is broken: the reader says where.
+  // It may be a broken file of Palp: its reader reports where.
   return head.trimmed().startsWith('{') ? FileKind::Project : FileKind::Foreign;
 }
 

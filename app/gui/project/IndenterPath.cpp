@@ -1,11 +1,7 @@
 #include "app/gui/project/IndenterPath.h"
 
-#include "app/gui/project/DesignStudiesFile.h"
+#include "app/gui/project/JsonFields.h"
 #include "model/SensorDesign.h"
-
-#include <QJsonArray>
-#include <QJsonDocument>
-#include <QJsonObject>
 
 #include <algorithm>
 #include <cmath>
@@ -95,9 +91,9 @@ std::vector<std::variant<Press, Motion>> stepsAlong(const Eigen::Matrix2Xd& draw
 std::string loadFile(const LoadCase& load, const IndenterPath& path, const SensorDesign& design) {
   std::vector<LoadCase> all{load};
   for (const LoadCase& next : loadsAfter(load, path, design)) all.push_back(next);
-  QJsonArray steps;
-  for (const LoadCase& each : all) steps.append(QJsonObject{{"indenters", loadJson(each)["indenters"]}});
-  return QJsonDocument(steps).toJson().toStdString();
+  Json steps = Json::array();
+  for (const LoadCase& each : all) steps.push_back({{"indenters", jsonOf(each.indenters)}});
+  return jsonText(steps, 4) + "\n";
 }
 
 } // namespace palp

@@ -11,7 +11,7 @@ namespace palp {
 
 struct SensorDesign;
 
-/// Steps that an indenter of the load takes one after another, once the load is reached. Told as the load tells it: by
+/// Steps that an indenter of the load takes one after another, once the load is reached. Prescribed as in the load: by
 /// forces, or by depths and shifts from its place.
 struct IndenterPath {
   int indenter = 0;
@@ -27,19 +27,19 @@ std::vector<LoadCase> loadsAfter(const LoadCase& load, const std::optional<Inden
                                  const SensorDesign& design);
 /// Why it cannot be followed; empty where it can.
 std::optional<std::string> whyInvalid(const LoadCase& load, const IndenterPath& path, const SensorDesign& design);
-/// None where the load has changed so that it is not a path of the same indenter any more: one was taken away, or it is
-/// told otherwise than the steps.
+/// Returns nullopt where the load has changed so that the path no longer fits: its indenter was removed, or is
+/// controlled in another way than the steps.
 std::optional<IndenterPath> pathKept(const std::optional<IndenterPath>& path, const LoadCase& before,
                                      const LoadCase& after);
 
 /// Places of the indenter's lowest point as it is moved, 2 x (1 + steps); empty where forces tell it.
 Eigen::Matrix2Xd wayOf(const LoadCase& load, const std::optional<IndenterPath>& path);
 
-/// Steps along a line that was drawn over the top face, from where the indenter was taken and stands by this motion: at
-/// equal distances, at most `most`, all at its depth. Corners of the line are no steps of their own.
+/// Steps along a line that was drawn over the top face, from where the indenter is by this motion: at
+/// equal distances, at most `most`, all at its depth. Corners of the line do not become steps.
 std::vector<std::variant<Press, Motion>> stepsAlong(const Eigen::Matrix2Xd& drawn_mm, const Motion& from, int most);
 
-/// The load and its path as `palp solve --loads` reads them (formats.md); of areas and discs it knows nothing.
+/// The load and its path as `palp solve --loads` reads them (formats.md); without areas and discs.
 std::string loadFile(const LoadCase& load, const IndenterPath& path, const SensorDesign& design);
 
 } // namespace palp

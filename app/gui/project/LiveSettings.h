@@ -34,7 +34,7 @@ struct SimulationSettings {
   std::uint64_t seed = 1;
   int openRow = -1, openColumn = -1; ///< a broken wire; -1: none
   int dropEvery = 0;                 ///< every n-th report is lost; 0: none
-  bool held = false;                 ///< the touch is the next two, instead of one that goes over the areas by itself
+  bool held = false; ///< the touch is the next two, instead of one that moves over the areas automatically
   int heldArea = 0;
   std::array<double, 3> heldForce_N{0, 0, -2};
   bool moving = false;                        ///< an indenter that presses anywhere, in place of the areas
@@ -57,8 +57,8 @@ inline constexpr NamedEnum kForceScales("force scale", std::array{std::pair{Forc
 struct LiveReceiver {
   std::string to;
   bool on = true;
-  /// Not on, though the file that it was read from says so: it leaves this computer, and waits for a tick. A file that
-  /// is written says so again.
+  /// Off, although on in the file: it sends beyond this computer and waits for the user's confirmation. A file that
+  /// is written has it on again.
   bool heldBack = false;
 
   bool operator==(const LiveReceiver&) const = default;
@@ -71,7 +71,7 @@ struct LiveSettings {
   std::string recording; ///< file to play
   double replaySpeed = 1;
   SimulationSettings simulation;
-  int rate_Hz = 1000;  ///< reports a second
+  int rate_Hz = 1000;  ///< reports per second
   int row = -1;        ///< scanned alone; -1: all rows
   std::string network; ///< file; empty: the one that ships with Palp
   int tareFrames = 25;

@@ -17,6 +17,15 @@ bool NetworkSettings::trainOptionsSet() const {
                                    [this](const TrainOption& one) { return one.inForm && one.isSet(*this); });
 }
 
+void setDesign(Project& project, const SensorDesign& design) {
+  const LoadCase before = project.load;
+  project.design = design;
+  std::erase_if(project.load.areas, [&](const AreaLoad& load) { return load.area >= design.areas.count(); });
+  std::erase_if(project.load.patches, [&](const PatchLoad& disc) { return whyInvalid({{}, {disc}}, design); });
+  std::erase_if(project.load.indenters, [&](const Indenter& its) { return whyInvalid(its, design); });
+  project.path = pathKept(project.path, before, project.load);
+}
+
 Project exampleProject() {
   Project project;
   project.load.areas.push_back({1, {0.5, 0.3, -6}});

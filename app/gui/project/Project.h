@@ -46,7 +46,7 @@ struct Project {
   NetworkSettings network;
   ViewSettings view;
   LiveSettings live;
-  std::vector<LiveSettings> moreBoards; ///< beside that of `live`
+  std::vector<LiveSettings> moreBoards; ///< in addition to that of `live`
 
   static constexpr std::size_t kMostBoards = 4;
 
@@ -59,6 +59,9 @@ struct Project {
 
   bool operator==(const Project&) const = default;
 };
+
+/// Sets the design and removes the loads that cannot act on it.
+void setDesign(Project& project, const SensorDesign& design);
 
 /// The paper's design under one example load.
 Project exampleProject();

@@ -1,23 +1,15 @@
 #include "app/gui/project/ProjectFile.h"
 
-#include "app/gui/project/DesignStudiesFile.h"
-#include "app/gui/project/LiveSettingsFile.h"
-#include "app/gui/project/SampleSettingsFile.h"
+#include "app/gui/project/ProjectFields.h"
 
 #include "app/study/decoding/TrainOptionTable.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
-#include "io/StrictJson.h"
 #include "model/base/Error.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
 
 #include <QFile>
-#include <QJsonArray>
-#include <QJsonDocument>
-#include <QJsonObject>
-
-#include <cmath>
 
 namespace palp {
 
@@ -26,47 +18,15 @@ namespace {
 constexpr int kVersion = 2; ///< 1 had no view, and perhaps no live
 constexpr const char* kVersionKey = "palp_project";
 constexpr NamedEnum kAxes("axis", std::array{std::pair{0, "x"}, std::pair{1, "y"}, std::pair{2, "z"}});
-constexpr int kLargestIndex = 10000; ///< of an area or a wire: more than any design has
-
-QJsonObject meshJson(const MeshOptions& mesh) {
-  QJsonObject object;
-  if (mesh.meshSize_mm) object["mesh_size_mm"] = *mesh.meshSize_mm;
-  if (mesh.mapped) object["mapped"] = QJsonArray{(*mesh.mapped)[0], (*mesh.mapped)[1], (*mesh.mapped)[2]};
-  return object;
-}
-
-MeshOptions meshOf(const JsonPlace& place) {
-  place.onlyKeys({}, {"mesh_size_mm", "mapped"});
-  MeshOptions mesh;
-  if (place.has("mesh_size_mm")) mesh.meshSize_mm = place.at("mesh_size_mm").number(0.01, 1000);
-  if (place.has("mapped")) {
-    const std::vector<JsonPlace> counts = place.at("mapped").list();
-    if (counts.size() != 3) place.at("mapped").refuse("three whole numbers, 1 to 1000");
-    mesh.mapped = {counts[0].integer(1, 1000), counts[1].integer(1, 1000), counts[2].integer(1, 1000)};
-  }
-  return mesh;
-}
+constexpr Within kIndices{0, 10000}; ///< of an area or a wire: more than any design has
 
 bool isNumber(const TrainOption& option) {
   return option.form != TrainOption::Form::Text && option.form != TrainOption::Form::Choice;
 }
 
-QJsonObject networkJson(const NetworkSettings& network) {
-  QJsonObject object{{"automatic_spread", network.automaticSpread},
-                     {"spread", network.chosenSpread},
-                     {"centers", network.centers.value_or(0)},
-                     {"sweep_from", network.sweepFrom},
-                     {"sweep_to", network.sweepTo},
-                     {"sweep_count", network.sweepCount}};
-  if (network.testNoise > 0) object["test_noise"] = network.testNoise;
-  if (network.allCenters) object["all_centers"] = true;
-  for (const TrainOption& option : trainOptionTable()) {
-    if (option.key.empty() || (!option.alwaysInFiles && !option.isSet(network))) continue;
-    const std::string text = option.text(network);
-    const QString key = QString::fromStdString(option.key);
-    object[key] = isNumber(option) ? QJsonValue(numberIn(text).value()) : QJsonValue(QString::fromStdString(text));
-  }
-  return object;
+Json optionJson(const TrainOption& option, const NetworkSettings& network) {
+  const std::string text = option.text(network);
+  return isNumber(option) ? jsonOf(numberIn(text).value()) : Json(text);
 }
 
 void readOption(const TrainOption& option, const JsonPlace& place, NetworkSettings& network) {
@@ -79,126 +39,13 @@ void readOption(const TrainOption& option, const JsonPlace& place, NetworkSettin
   if (!option.set(network, value)) place.refuse(option.allowed);
 }
 
-NetworkSettings networkOf(const JsonPlace& place) {
-  std::vector<std::string> required{"automatic_spread", "spread", "sweep_from", "sweep_to", "sweep_count"};
-  std::vector<std::string> optional{"centers", "test_noise", "all_centers"};
-  for (const TrainOption& option : trainOptionTable())
-    if (!option.key.empty()) (option.alwaysInFiles ? required : optional).push_back(option.key);
-  place.onlyKeys(required, optional);
-  NetworkSettings network;
-  network.automaticSpread = place.at("automatic_spread").boolean();
-  network.chosenSpread = place.at("spread").number(1e-6, 1e6);
-  if (place.has("centers"))
-    if (const int centers = place.at("centers").integer(0, 100000); centers > 0) network.centers = centers;
-  network.sweepFrom = place.at("sweep_from").number(1e-6, 1e6);
-  network.sweepTo = place.at("sweep_to").number(network.sweepFrom, 1e6);
-  network.sweepCount = place.at("sweep_count").integer(2, 100);
-  if (place.has("test_noise")) network.testNoise = place.at("test_noise").number(0, 0.5);
-  if (place.has("all_centers")) network.allCenters = place.at("all_centers").boolean();
-  for (const TrainOption& option : trainOptionTable())
-    if (!option.key.empty() && place.has(option.key)) readOption(option, place.at(option.key), network);
-  return network;
+void range(JsonFields& fields, const std::string& key, std::optional<std::array<double, 2>>& range) {
+  fields.sparse(key, range);
+  if (range) fields.require(key, (*range)[0] < (*range)[1], "two numbers, the smaller one first");
 }
 
-QJsonObject viewJson(const ViewSettings& view) {
-  const auto cell = [](const std::array<int, 2>& at) { return QJsonArray{at[0], at[1]}; };
-  const auto place = [](const std::array<double, 3>& at) { return QJsonArray{at[0], at[1], at[2]}; };
-  QJsonObject object{{"scene", QString::fromStdString(view.scene)},
-                     {"quantity", QString::fromStdString(quantityName(view.quantity))},
-                     {"ghost", view.ghost},
-                     {"electrodes", view.electrodes},
-                     {"arrows", view.arrows},
-                     {"outlines", view.outlines},
-                     {"edges", view.edges},
-                     {"row_wire", view.rowWire},
-                     {"line_from_mm", place(view.lineFrom_mm)},
-                     {"line_to_mm", place(view.lineTo_mm)},
-                     {"mesh", view.mesh},
-                     {"resistance_noise", view.resistanceNoise},
-                     {"resistance", QString::fromStdString(kResistanceKinds.name(view.resistance))},
-                     {"cell", cell(view.cell)},
-                     {"test_area", view.testArea},
-                     {"report_per_area", view.reportPerArea}};
-  if (view.warpFactor) object["warp_factor"] = *view.warpFactor;
-  if (view.cut)
-    object["cut"] =
-        QJsonObject{{"axis", QString::fromStdString(kAxes.name(view.cut->axis))}, {"at_mm", view.cut->at_mm}};
-  if (view.colorMap) object["color_map"] = QString::fromStdString(kColorMaps.name(*view.colorMap));
-  if (view.colorRange) object["color_range"] = QJsonArray{(*view.colorRange)[0], (*view.colorRange)[1]};
-  if (view.differenceRange)
-    object["difference_range"] = QJsonArray{(*view.differenceRange)[0], (*view.differenceRange)[1]};
-  if (view.extremes) object["extremes"] = true;
-  if (view.lessKept) object["less_kept"] = true;
-  if (view.uniform) object["uniform"] = true;
-  if (view.mapQuantity != ViewSettings().mapQuantity) object["map_quantity"] = QString::fromStdString(view.mapQuantity);
-  if (!view.mapOnBlock) object["map_on_block"] = false;
-  if (view.currentWay) object["current_way"] = true;
-  if (view.litCell) object["lit_cell"] = cell(*view.litCell);
-  if (view.resistanceRange)
-    object["resistance_range"] = QJsonArray{(*view.resistanceRange)[0], (*view.resistanceRange)[1]};
-  return object;
-}
-
-std::array<int, 2> cellOf(const JsonPlace& place) {
-  const std::vector<JsonPlace> cell = place.list();
-  if (cell.size() != 2) place.refuse("a row-wire and a column-wire, whole numbers from 0 on");
-  return {cell[0].integer(0, kLargestIndex), cell[1].integer(0, kLargestIndex)};
-}
-
-std::array<double, 3> placeOf(const JsonPlace& place) {
-  const std::vector<double> numbers = place.numbers(3);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-std::array<double, 2> rangeOf(const JsonPlace& place) {
-  const std::vector<double> range = place.numbers(2);
-  if (!(range[0] < range[1])) place.refuse("two numbers, the smaller one first");
-  return {range[0], range[1]};
-}
-
-CutPlane cutOf(const JsonPlace& place) {
-  place.onlyKeys({"axis", "at_mm"});
-  return {place.at("axis").named(kAxes), place.at("at_mm").number(0, 1e4)};
-}
-
-ViewSettings viewOf(const JsonPlace& place) {
-  place.onlyKeys({"scene", "quantity", "ghost", "electrodes", "arrows", "outlines", "edges", "row_wire", "line_from_mm",
-                  "line_to_mm", "mesh", "resistance_noise", "resistance", "cell", "test_area"},
-                 {"warp_factor", "clip_y_mm", "cut", "color_map", "color_range", "difference_range", "extremes",
-                  "lit_cell", "resistance_range", "less_kept", "current_way", "uniform", "map_quantity", "map_on_block",
-                  "report_per_area"});
-  ViewSettings view;
-  view.scene = place.at("scene").string();
-  view.quantity = place.at("quantity").named(kQuantities);
-  if (place.has("warp_factor")) view.warpFactor = place.at("warp_factor").number(0, 1e6);
-  if (place.has("clip_y_mm")) view.cut = CutPlane{1, place.at("clip_y_mm").number(0, 1e4)}; // of older files
-  if (place.has("cut")) view.cut = cutOf(place.at("cut"));
-  if (place.has("color_map")) view.colorMap = place.at("color_map").named(kColorMaps);
-  if (place.has("color_range")) view.colorRange = rangeOf(place.at("color_range"));
-  if (place.has("difference_range")) view.differenceRange = rangeOf(place.at("difference_range"));
-  if (place.has("extremes")) view.extremes = place.at("extremes").boolean();
-  if (place.has("less_kept")) view.lessKept = place.at("less_kept").boolean();
-  if (place.has("uniform")) view.uniform = place.at("uniform").boolean();
-  if (place.has("map_quantity")) view.mapQuantity = place.at("map_quantity").string();
-  if (place.has("map_on_block")) view.mapOnBlock = place.at("map_on_block").boolean();
-  if (place.has("current_way")) view.currentWay = place.at("current_way").boolean();
-  view.ghost = place.at("ghost").boolean();
-  view.electrodes = place.at("electrodes").boolean();
-  view.arrows = place.at("arrows").boolean();
-  view.outlines = place.at("outlines").boolean();
-  view.edges = place.at("edges").boolean();
-  if (place.has("lit_cell")) view.litCell = cellOf(place.at("lit_cell"));
-  view.rowWire = place.at("row_wire").integer(0, kLargestIndex);
-  view.lineFrom_mm = placeOf(place.at("line_from_mm"));
-  view.lineTo_mm = placeOf(place.at("line_to_mm"));
-  view.mesh = place.at("mesh").boolean();
-  view.resistanceNoise = place.at("resistance_noise").number(1e-7, 0.1);
-  view.resistance = place.at("resistance").named(kResistanceKinds);
-  if (place.has("resistance_range")) view.resistanceRange = rangeOf(place.at("resistance_range"));
-  view.cell = cellOf(place.at("cell"));
-  view.testArea = place.at("test_area").integer(0, kLargestIndex);
-  if (place.has("report_per_area")) view.reportPerArea = place.at("report_per_area").integer(5, 100000);
-  return view;
+template <class Struct> QByteArray fileText(const Struct& value) {
+  return QByteArray::fromStdString(jsonText(jsonOf(value), 4) + "\n");
 }
 
 void requireBuildable(const SensorDesign& design, const std::string& where) {
@@ -206,62 +53,122 @@ void requireBuildable(const SensorDesign& design, const std::string& where) {
   if (!faults.empty()) throw Error(where + faults[0].key + ": " + faults[0].sentence);
 }
 
+} // namespace
+
+static void describe(JsonFields& fields, MeshOptions& mesh) {
+  fields.sparse("mesh_size_mm", mesh.meshSize_mm, Within{0.01, 1000});
+  fields.sparse("mapped", mesh.mapped, Within{1, 1000});
+}
+
+void describe(JsonFields& fields, NetworkSettings& network) {
+  constexpr Within kSpreads{1e-6, 1e6};
+  fields.field("automatic_spread", network.automaticSpread);
+  fields.field("spread", network.chosenSpread, kSpreads);
+  fields.field("sweep_from", network.sweepFrom, kSpreads);
+  fields.field("sweep_to", network.sweepTo, Within{network.sweepFrom, 1e6});
+  fields.field("sweep_count", network.sweepCount, Within{2, 100});
+  int centers = network.centers.value_or(0);
+  fields.added("centers", centers, Within{0, 100000});
+  if (centers > 0) network.centers = centers;
+  fields.sparse("test_noise", network.testNoise, 0, Within{0, 0.5});
+  fields.sparse("all_centers", network.allCenters, false);
+  for (const TrainOption& option : trainOptionTable())
+    if (!option.key.empty())
+      fields.custom(
+          option.key, {option.alwaysInFiles, option.alwaysInFiles, option.alwaysInFiles || option.isSet(network)},
+          [&] { return optionJson(option, network); },
+          [&](const JsonPlace& place) { readOption(option, place, network); });
+}
+
+static void describe(JsonFields& fields, CutPlane& cut) {
+  fields.field("axis", cut.axis, kAxes);
+  fields.field("at_mm", cut.at_mm, Within{0, 1e4});
+}
+
+void describe(JsonFields& fields, ViewSettings& view) {
+  const ViewSettings usual;
+  fields.field("scene", view.scene);
+  fields.field("quantity", view.quantity, kQuantities);
+  fields.sparse("warp_factor", view.deformationScale, Within{0, 1e6});
+  fields.custom(
+      "clip_y_mm", {false, false, false}, [] { return Json(); }, // of older files
+      [&](const JsonPlace& place) {
+        view.cut = CutPlane{1, place.number(0, 1e4)};
+      });
+  fields.sparse("cut", view.cut);
+  fields.sparse("color_map", view.colorMap, kColorMaps);
+  range(fields, "color_range", view.colorRange);
+  range(fields, "difference_range", view.differenceRange);
+  fields.sparse("extremes", view.extremes, false);
+  fields.sparse("less_kept", view.lessReference, false);
+  fields.sparse("uniform", view.uniform, false);
+  fields.sparse("map_quantity", view.mapQuantity, usual.mapQuantity);
+  fields.sparse("map_on_block", view.mapOnBlock, true);
+  fields.sparse("current_way", view.currentPaths, false);
+  fields.field("ghost", view.ghost);
+  fields.field("electrodes", view.electrodes);
+  fields.field("arrows", view.arrows);
+  fields.field("outlines", view.outlines);
+  fields.field("edges", view.edges);
+  fields.sparse("lit_cell", view.litCell, kIndices);
+  fields.field("row_wire", view.rowWire, kIndices);
+  fields.field("line_from_mm", view.lineFrom_mm);
+  fields.field("line_to_mm", view.lineTo_mm);
+  fields.field("mesh", view.mesh);
+  fields.field("resistance_noise", view.resistanceNoise, Within{1e-7, 0.1});
+  fields.field("resistance", view.resistance, kResistanceKinds);
+  range(fields, "resistance_range", view.resistanceRange);
+  fields.field("cell", view.cell, kIndices);
+  fields.field("test_area", view.testArea, kIndices);
+  fields.added("report_per_area", view.reportPerArea, Within{5, 100000});
+}
+
+static void describe(JsonFields& fields, Project& project) {
+  int version = kVersion;
+  fields.field(kVersionKey, version, Within{1, kVersion});
+  fields.field("design", project.design);
+  fields.field("load", project.load);
+  fields.sparse("path", project.path);
+  fields.field("mesh", project.mesh);
+  fields.field("samples", project.samples);
+  fields.field("network", project.network);
+  if (version >= 2) fields.branch("view", project.view);
+  fields.added("live", project.live);
+  fields.sparse("more_boards", project.moreBoards, {});
+  fields.require("more_boards", project.moreBoards.size() < Project::kMostBoards,
+                 "at most " + std::to_string(Project::kMostBoards - 1) + " further boards");
+  fields.sparse("kept_design", project.kept);
+  fields.sparse("design_studies", project.studies, {});
+}
+
+namespace {
+
 Project projectOf(const JsonPlace& root, const std::string& file) {
-  const int version = formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
-  root.onlyKeys({kVersionKey, "design", "load", "mesh", "samples", "network"},
-                {"view", "live", "more_boards", "kept_design", "design_studies", "path"});
-  Project project;
-  project.design = readDesign(root.at("design"));
+  formatVersion(root, kVersionKey, kVersion); // first: a newer file may well have other keys
+  Project project = JsonFields::read<Project>(root);
   requireBuildable(project.design, file + ": design.");
-  project.load = loadOf(root.at("load"));
+  if (project.kept) requireBuildable(*project.kept, file + ": kept_design.");
   if (const auto wrong = whyInvalid(project.load, project.design)) throw Error(file + ": load: " + *wrong);
-  if (root.has("path")) {
-    project.path = pathOf(root.at("path"));
+  if (project.path)
     if (const auto wrong = whyInvalid(project.load, *project.path, project.design))
       throw Error(file + ": path: " + *wrong);
-  }
-  project.mesh = meshOf(root.at("mesh"));
-  project.samples = samplesOf(root.at("samples"));
-  project.network = networkOf(root.at("network"));
-  if (version >= 2) project.view = viewOf(root.at("view"));
-  if (root.has("live")) project.live = liveOf(root.at("live")); // not in the files of the first version
-  if (root.has("more_boards")) project.moreBoards = boardsOf(root.at("more_boards"));
-  if (root.has("kept_design")) {
-    requireBuildable(project.kept.emplace(readDesign(root.at("kept_design"))), file + ": kept_design.");
-  }
-  if (root.has("design_studies")) project.studies = studiesOf(root.at("design_studies"));
   return project;
 }
 
 } // namespace
 
 QByteArray networkText(const NetworkSettings& network) {
-  return QJsonDocument(networkJson(network)).toJson();
+  return fileText(network);
 }
 
 NetworkSettings parseNetwork(const QByteArray& text, const QString& file) {
   const std::string name = file.toStdString();
   const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
-  return networkOf(JsonPlace(json, name));
+  return JsonFields::read<NetworkSettings>(JsonPlace(json, name));
 }
 
 QByteArray projectText(const Project& project) {
-  const auto designJson = [](const SensorDesign& design) {
-    return QJsonDocument::fromJson(QByteArray::fromStdString(toJson(design))).object();
-  };
-  QJsonObject root{{kVersionKey, kVersion},
-                   {"design", designJson(project.design)},
-                   {"load", loadJson(project.load)},
-                   {"mesh", meshJson(project.mesh)},
-                   {"samples", samplesJson(project.samples)},
-                   {"network", networkJson(project.network)},
-                   {"view", viewJson(project.view)},
-                   {"live", liveJson(project.live)}};
-  if (project.path) root["path"] = pathJson(*project.path);
-  if (!project.moreBoards.empty()) root["more_boards"] = boardsJson(project.moreBoards);
-  if (project.kept) root["kept_design"] = designJson(*project.kept);
-  if (const QJsonObject studies = studiesJson(project.studies); !studies.isEmpty()) root["design_studies"] = studies;
-  return QJsonDocument(root).toJson();
+  return fileText(project);
 }
 
 void saveProject(const std::filesystem::path& path, const Project& project) {

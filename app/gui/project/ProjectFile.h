@@ -9,11 +9,11 @@
 
 namespace palp {
 
-/// Settings of a training as they stand in a project file, and read back as strictly; `file` is for refusals.
+/// Settings of a training as in a project file, and read as strictly; `file` is for messages.
 QByteArray networkText(const NetworkSettings& network);
 NetworkSettings parseNetwork(const QByteArray& text, const QString& file);
 
-/// Written beside and renamed. Throws Error.
+/// Writes to a temporary file and renames it. Throws Error.
 void saveProject(const std::filesystem::path& path, const Project& project);
 
 /// The text of a project file.

@@ -15,7 +15,7 @@ struct ResultSource {
   const LoadCase& load;
   double loadFraction = 1;
   MeshOptions mesh{};
-  QString stale{}; ///< what has changed since, in words; empty: nothing
+  QString stale{}; ///< what has changed since, as text; empty: nothing
 };
 
 /// Load, mesh, design and whether they still hold, each line after a "#".
@@ -28,7 +28,7 @@ QString electrodesCsv(const ResultSource& source, const ElectrodeDisplacements& 
 /// The resistances [ohm] at rest and under the load, in the same way.
 QString resistancesCsv(const ResultSource& source, const TouchResistances& resistances);
 
-/// Written beside and renamed. Throws Error.
+/// Writes to a temporary file and renames it. Throws Error.
 void writeText(const QString& file, const QString& text);
 
 } // namespace palp

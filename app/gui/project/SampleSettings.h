@@ -11,7 +11,7 @@ namespace palp {
 
 inline constexpr int kFewestTouches = 20, kMostTouches = 100000; ///< of a set of samples
 
-/// Random touches of an indenter, anywhere on the top face but beside its sides.
+/// Random touches of an indenter, anywhere on the top face except close to its sides.
 struct TouchSampling {
   int count = 500; ///< for training, and as many for testing
   IndenterShape shape = IndenterShape::Sphere;
@@ -23,7 +23,7 @@ struct TouchSampling {
   bool operator==(const TouchSampling&) const = default;
 };
 
-/// Those that palp sample draws by itself.
+/// The touches that palp sample draws by default.
 TouchSampling usualTouches(const SensorDesign& design);
 TouchRange rangeOf(const TouchSampling& touches, const SensorDesign& design);
 

@@ -12,7 +12,7 @@ std::array<std::array<double, 3>, 2> ViewSettings::lineIn(const Eigen::Vector3d&
 DeformationOptions ViewSettings::blockOptions() const {
   DeformationOptions options;
   options.quantity = quantity;
-  options.warpFactor = warpFactor;
+  options.deformationScale = deformationScale;
   options.cut = cut;
   options.colorMap = colorMap;
   options.fixedRange = shownRange();
@@ -23,7 +23,7 @@ DeformationOptions ViewSettings::blockOptions() const {
   options.areaOutlines = outlines;
   options.meshEdges = edges;
   options.litCell = litCell;
-  options.lessKept = lessKept;
+  options.lessReference = lessReference;
   options.lessUniform = uniform;
   return options;
 }

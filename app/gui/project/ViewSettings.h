@@ -10,22 +10,22 @@
 namespace palp {
 
 /// What the heatmap shows of the resistances.
-enum class ResistanceKind { Resistance, Change, RelativeChange, LessKept };
+enum class ResistanceKind { Resistance, Change, RelativeChange, LessReference };
 inline constexpr NamedEnum kResistanceKinds("resistance",
                                             std::array{std::pair{ResistanceKind::Resistance, "R"},
                                                        std::pair{ResistanceKind::Change, "dR"},
                                                        std::pair{ResistanceKind::RelativeChange, "dR/R"},
-                                                       std::pair{ResistanceKind::LessKept, "dR/R less kept"}});
+                                                       std::pair{ResistanceKind::LessReference, "dR/R less kept"}});
 
 /// How the scenes show what was computed.
 struct ViewSettings {
   std::string scene = "deformation"; ///< in which a saved project opens
   Quantity quantity = Quantity::Displacement;
-  std::optional<double> warpFactor; ///< none: automatic
+  std::optional<double> deformationScale; ///< none: automatic
   std::optional<CutPlane> cut;
   std::optional<ColorMap> colorMap;                     ///< none: as the quantity asks for
   std::optional<std::array<double, 2>> colorRange;      ///< of the quantity's colours; none: the values' own
-  std::optional<std::array<double, 2>> differenceRange; ///< the same of the difference to the kept design
+  std::optional<std::array<double, 2>> differenceRange; ///< the same of the difference from the reference design
   bool extremes = false;                                ///< marks the largest and the smallest value
   bool ghost = true;
   bool electrodes = true;
@@ -41,9 +41,9 @@ struct ViewSettings {
   ResistanceKind resistance = ResistanceKind::RelativeChange;
   std::optional<std::array<double, 2>> resistanceRange; ///< of the colours; none: the values' own
   std::array<int, 2> cell{4, 15};                       ///< of the Resistance scene
-  bool currentWay = false;                              ///< in its block, under the law of the field
+  bool currentPaths = false;                            ///< in its block, under the law of the field
   int testArea = 0;
-  bool lessKept = false;             ///< the Deformation scene shows the touch less another answer
+  bool lessReference = false;        ///< the Deformation scene shows the touch less another answer
   bool uniform = false;              ///< that is: of its own design to the same forces, uniform; else the kept one's
   std::string mapQuantity = "place"; ///< of the Design scene's map, by its name for files
   bool mapOnBlock = true;            ///< is drawn over the block too
@@ -51,13 +51,15 @@ struct ViewSettings {
 
   bool operator==(const ViewSettings&) const = default;
   /// Of the colours that are shown: each of the two has a range of its own.
-  [[nodiscard]] std::optional<std::array<double, 2>>& shownRange() { return lessKept ? differenceRange : colorRange; }
+  [[nodiscard]] std::optional<std::array<double, 2>>& shownRange() {
+    return lessReference ? differenceRange : colorRange;
+  }
   [[nodiscard]] const std::optional<std::array<double, 2>>& shownRange() const {
-    return lessKept ? differenceRange : colorRange;
+    return lessReference ? differenceRange : colorRange;
   }
   /// The ends of the line; through the middle of this block's top face along x until one was chosen.
   [[nodiscard]] std::array<std::array<double, 3>, 2> lineIn(const Eigen::Vector3d& block_mm) const;
-  /// Quantity, warp, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
+  /// Quantity, deformation scale, cut, colours, parts and lit cell of the Deformation scene; all else as by default.
   [[nodiscard]] DeformationOptions blockOptions() const;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMergeId = 1;
 
-/// The same project, shown in another way, beside another board, another design that is kept and other studies.
+/// The same project with the view, the boards, the reference design and the studies of `other`.
 Project shownAs(Project project, const Project& other) {
   project.view = other.view;
   project.live = other.live;
@@ -76,13 +76,19 @@ Workbench::Workbench(const Project& project, QObject* parent) : QObject(parent),
 void Workbench::edit(const QString& what, const Project& next) {
   if (next == project()) return;
   if (!acceptsLosses(lossQuestion_.losses({Leaving::Way::Edit, &next}))) return showAgain();
-  if (next == shownAs(project(), next)) { // nothing that stands in the history
+  if (next == shownAs(project(), next)) { // nothing that the history records
     apply(next);
     return;
   }
-  project_ = shownAs(project(), next); // what is shown changes at once and for good
+  project_ = shownAs(project(), next); // what is shown is not part of the history
   history_.push(new ProjectEdit(*this, what, next));
   entryOpen_ = true;
+}
+
+void Workbench::edit(const QString& what, const std::function<void(Project&)>& change) {
+  Project next = project();
+  change(next);
+  edit(what, next);
 }
 
 void Workbench::replace(const Project& project, const QString& file) {
@@ -143,13 +149,13 @@ bool Workbench::comparable() const {
   return project().view.uniform ? !project().load.indenters.empty() : project().kept.has_value();
 }
 
-std::shared_ptr<const KeptPath> Workbench::keptPath() const {
+std::shared_ptr<const ReferencePath> Workbench::referencePath() const {
   if (!comparable()) return nullptr;
   const bool uniform = project().view.uniform;
   return kept_.pathFor(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
 }
 
-void Workbench::needKept() {
+void Workbench::needReference() {
   if (!comparable() || !touch_.upToDate()) return;
   const bool uniform = project().view.uniform;
   kept_.want(uniform ? touch_.touch().design() : *project().kept, touch_.touch(), uniform);
@@ -168,28 +174,28 @@ std::optional<TouchResistances> Workbench::resistancesAtEnd() const {
   return field_.of(touch, touch.solution()->reachedLoadFraction);
 }
 
-std::optional<TouchResistances> Workbench::keptResistances() const {
-  const auto kept = keptPath();
+std::optional<TouchResistances> Workbench::referenceResistances() const {
+  const auto kept = referencePath();
   if (!kept) return {};
   if (!kept->touch) return resistancesOf(kept->design, kept->at(touch_.loadFraction()).electrodes);
-  return keptField_.of(*kept->touch, kept->fractionAt(touch_.loadFraction()));
+  return referenceField_.of(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::needResistances() {
   if (touch_.upToDate()) field_.want(touch_.touch(), touch_.loadFraction());
 }
 
-void Workbench::needKeptResistances() {
-  needKept();
-  if (const auto kept = keptPath(); kept && kept->touch)
-    keptField_.want(*kept->touch, kept->fractionAt(touch_.loadFraction()));
+void Workbench::needReferenceResistances() {
+  needReference();
+  if (const auto kept = referencePath(); kept && kept->touch)
+    referenceField_.want(*kept->touch, kept->fractionAt(touch_.loadFraction()));
 }
 
 void Workbench::apply(const Project& project) {
   project_ = project;
   if (!comparable()) kept_.forget();
   const SensorDesign* other = project.view.uniform ? &project.design : project.kept ? &*project.kept : nullptr;
-  if (!comparable() || other->field() == nullptr) keptField_.leave();
+  if (!comparable() || other->field() == nullptr) referenceField_.leave();
   if (project.design.field() == nullptr) field_.leave();
   touch_.setInputs(project.design, project.load, project.mesh, loadsAfter(project.load, project.path, project.design));
   emit projectChanged();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/gui/jobs/FieldTouch.h"
-#include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Leaving.h"
 #include "app/gui/project/Project.h"
@@ -10,6 +10,7 @@
 #include <QObject>
 #include <QUndoStack>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,10 +33,12 @@ public:
 
   [[nodiscard]] const Project& project() const { return project_; }
   /// A change. How things are shown and the live settings just change; all else becomes an entry of the history that
-  /// can be undone, named after what changed with its values, or `what` where that cannot be said shortly. Edits of the
+  /// can be undone, named after what changed with its values, or `what` where that would be too long. Edits of the
   /// same `what` in a row are one entry until closeEntry(). Asks before something ends by it that cannot be had again;
   /// where the user refuses, nothing changes.
   void edit(const QString& what, const Project& next);
+  /// The same with a function that changes the project.
+  void edit(const QString& what, const std::function<void(Project&)>& change);
   /// The next edit begins an entry of its own.
   void closeEntry() { entryOpen_ = false; }
   /// Another project in place of this one, kept in `file` (empty: in none yet), which holds it. Its history begins
@@ -51,7 +54,7 @@ public:
   enum class Modified { Nothing, LiveSettings, Calibration, Project };
   [[nodiscard]] Modified modification() const;
   [[nodiscard]] bool modified() const { return modification() != Modified::Nothing; }
-  /// The project as it is now stands in this file.
+  /// This file now contains the project as it is.
   void saved(const QString& file);
 
   /// What every way of leaving asks.
@@ -64,24 +67,24 @@ public:
   void setPlace(const QString& scene) { place_ = scene; }
 
   [[nodiscard]] TouchSession& touch() { return touch_; }
-  [[nodiscard]] KeptTouch& kept() { return kept_; }
-  /// There is another answer to compare the touch with: the kept design's, or its own to the same forces, uniform.
+  [[nodiscard]] ReferenceTouch& kept() { return kept_; }
+  /// There is another solution to compare the touch with: of the reference design, or its own under uniform load.
   [[nodiscard]] bool comparable() const;
-  /// That answer beside the touch that is shown; null before it is computed and where there is none.
-  [[nodiscard]] std::shared_ptr<const KeptPath> keptPath() const;
+  /// That solution, for the touch that is shown; null before it is computed and where there is none.
+  [[nodiscard]] std::shared_ptr<const ReferencePath> referencePath() const;
   /// A scene shows it: it is computed.
-  void needKept();
-  /// Under the law of the field: of the touch that is shown, and of the kept design beside it.
+  void needReference();
+  /// Under the law of the field: of the touch that is shown, and of the reference design.
   [[nodiscard]] FieldTouch& field() { return field_; }
-  [[nodiscard]] FieldTouch& keptField() { return keptField_; }
+  [[nodiscard]] FieldTouch& referenceField() { return referenceField_; }
   /// By the law of the touch that is shown, at the place of the load path that is shown; empty before they are there.
   [[nodiscard]] std::optional<TouchResistances> resistances() const;
-  [[nodiscard]] std::optional<TouchResistances> keptResistances() const;
+  [[nodiscard]] std::optional<TouchResistances> referenceResistances() const;
   /// At the end of the load path, for scales that hold on all of it; under the field as far as they were computed.
   [[nodiscard]] std::optional<TouchResistances> resistancesAtEnd() const;
   /// A scene shows them: the field is computed where the law needs it.
   void needResistances();
-  void needKeptResistances();
+  void needReferenceResistances();
   [[nodiscard]] QUndoStack& history() { return history_; }
   /// The designs of this project that are not the present one, each once: those before it, the latest first, then those
   /// that were undone.
@@ -109,8 +112,8 @@ private:
   bool entryOpen_ = false;
   QString place_;
   TouchSession touch_;
-  KeptTouch kept_;
-  FieldTouch field_, keptField_;
+  ReferenceTouch kept_;
+  FieldTouch field_, referenceField_;
 };
 
 } // namespace palp

@@ -4,7 +4,7 @@
 
 namespace palp {
 
-/// What a report's page says, and its tables; the pictures stand beside.
+/// The text of a report's page and its tables; the pictures are shown next to it.
 class PageWords : public QTextBrowser {
   Q_OBJECT
 

@@ -13,7 +13,7 @@ public:
 
   /// What will run.
   void show(const ReportPlan& plan);
-  /// A run is this far after so many seconds; `what` is being done.
+  /// The progress of a run after a time [s]; `what` is being done.
   void setProgress(double share, double elapsed_s, const QString& what);
   /// All of it is done. The seconds of each part.
   std::vector<double> finish(double elapsed_s);

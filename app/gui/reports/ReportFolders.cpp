@@ -37,7 +37,7 @@ QFileInfo runFolderOf(const QString& folder) {
   return here.fileName() == "report" && runOf(above.fileName()).run.isValid() ? above : here;
 }
 
-/// What a run's command says before its folders, and whether it is of another design than the paper's.
+/// A run's command without its folders, and whether it is of another design than the paper's.
 QString settingsOf(const QString& command) {
   return command.section(" -o ", 0, 0) + (command.section(" -o ", 1).contains(" --design ") ? " --design" : "");
 }
@@ -48,7 +48,7 @@ QString commandOf(const QString& folder) {
   return messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readLine()).trimmed() : QString();
 }
 
-/// What tells runs of a kind apart: how many samples, and another design than the paper's.
+/// What distinguishes runs of a kind: how many samples, and another design than the paper's.
 QString settingsWords(const QString& folder) {
   static const QRegularExpression drawn(
       R"(^palp report (?:noise|networks|error-time|scenes|layout) .*--per-area (\d+))");
@@ -113,7 +113,7 @@ std::optional<double> lastRun_s(const QString& base, const QString& command) {
     const QDateTime run = runOf(folder.fileName()).run;
     if (!run.isValid() || settingsOf(commandOf(folder.filePath())) != settingsOf(command)) continue;
     const auto seconds = static_cast<double>(run.secsTo(report.written));
-    if (seconds >= 0) return std::max(seconds, 0.5); // the name has whole seconds
+    if (seconds >= 0) return std::max(seconds, 0.5); // the name has integer seconds
   }
   return std::nullopt;
 }

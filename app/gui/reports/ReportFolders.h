@@ -19,7 +19,7 @@ struct WrittenReport {
 };
 
 /// Makes a folder of a new report below `base`, named after its kind and the time: "networks-2026-11-22-140503". Never
-/// one that was there before. Throws Error where it cannot be made.
+/// an existing one. Throws Error where it cannot be made.
 QString newReportFolder(const QString& base, const QString& kind, const QDateTime& now);
 
 /// The kind in the folder's name, and the title of what lies there.
@@ -36,14 +36,14 @@ inline constexpr const char* kStudyFile = "study.json";
 /// Where the page of a run lies: of a study one folder deeper.
 QString pageFolder(const QString& folder);
 
-/// "3 of 9 designs are done; Run goes on with the others."
+/// "3 of 9 designs are done; press Run to continue with the others."
 QString studyState(const QString& folder, std::size_t designs);
 
 /// The reports in the folders right below `base` and in `base` itself, studies that were stopped among them; the newest
 /// first.
 std::vector<WrittenReport> reportsBelow(const QString& base);
 
-/// What a run puts into the folder beside the report: what it said, and the design that it is of.
+/// What a run adds to the report's folder: its messages, and the design that it is of.
 inline constexpr const char* kReportMessages = "messages.txt";
 inline constexpr const char* kReportDesign = "sensor.json";
 
@@ -53,7 +53,7 @@ QStringList writtenInto(const QString& folder);
 /// How a run that could be started ended.
 QString endWords(ReportRun::Ending how, double seconds, int status, const QString& folder);
 
-/// Keeps the messages beside what was written; a folder that holds nothing of the report goes. Nothing where the folder
+/// Keeps the messages next to the report; a folder without a report is deleted. Nothing where the folder
 /// is not there or has no name.
 void tidyReport(const QString& folder, const QString& messages);
 

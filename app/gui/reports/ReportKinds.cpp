@@ -13,37 +13,34 @@ namespace palp {
 namespace {
 
 constexpr qsizetype kNameOfDesign = 8; // characters of its fingerprint
-constexpr double kSamples = 100;       // on each area, for which the times of RunPart stand
+constexpr double kSamples = 100;       // on each area, for which the times of RunPart hold
 
 std::vector<ReportKind> allKinds() {
   std::vector<ReportKind> all{
-      {QObject::tr("reproduce the paper"),
+      {QObject::tr("Reproduce the paper"),
        {"reproduce", "all"},
        QObject::tr("Table 1, Fig. 12 and the figures of the paper from scratch, compared with the printed numbers."),
        protocolParts(3.3)},
-      {QObject::tr("reproduce Table 1"),
+      {QObject::tr("Reproduce Table 1"),
        {"reproduce", "table1"},
        QObject::tr("Errors from displacements at the paper's spreads, both modes and the linear baseline."),
        protocolParts(0.3)},
-      {QObject::tr("reproduce Fig. 12"),
+      {QObject::tr("Reproduce Fig. 12"),
        {"reproduce", "fig12"},
        QObject::tr("Errors from resistances over the spread, both modes and the linear baseline."),
        protocolParts(3)},
-      {QObject::tr("study of many designs"),
+      {QObject::tr("Study of many designs"),
        {kStudyKind},
        QObject::tr("Varies parameters of the design: one table with a row per design, the best designs, and a chart of "
                    "each result over each parameter. A cancelled study can be continued."),
        {{"all designs", 1, 60}}}};
   for (const ReportComputation& report : reportComputations()) {
-    QString what = QString::fromStdString(report.what);
-    if (!what.isEmpty()) what[0] = what[0].toUpper();
+    QString title = QString::fromStdString(report.name), what = QString::fromStdString(report.what);
+    for (QString* text : {&title, &what})
+      if (!text->isEmpty()) text->front() = text->front().toUpper();
     if (report.name == "networks")
       what += QObject::tr(": the design's law must be the conduction field (Design scene).");
-    all.push_back({QString::fromStdString(report.name),
-                   {"report", QString::fromStdString(report.name)},
-                   what,
-                   report.parts,
-                   report.fieldParts});
+    all.push_back({title, {"report", QString::fromStdString(report.name)}, what, report.parts, report.fieldParts});
   }
   return all;
 }

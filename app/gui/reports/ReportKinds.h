@@ -31,14 +31,14 @@ QString runName(const ReportKind& kind);
 
 /// Roughly how long a study takes on two cores [s].
 double studySeconds(const StudyPlan& plan);
-/// It makes samples of its own, as many on each area as the project says.
+/// It makes samples of its own, as many on each area as the project has set.
 bool drawsSamples(const ReportKind& kind);
 
 /// What a report of the project runs, and for how long where it has not run here: as its law and number of samples
 /// have it.
 std::vector<RunPart> partsOf(const ReportKind& kind, const Project& project);
 
-/// Where the study stands in the list.
+/// The row of the study in the list.
 int studyIndex();
 
 /// A report with these arguments needs the project's design: it is of it, and that is not the paper's.

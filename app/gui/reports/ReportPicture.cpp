@@ -103,7 +103,7 @@ void ReportPicture::saveAs(const QString& from, const QString& title, const QStr
   const QString to = askFileToSave(this, title, QFileInfo(from).fileName(), filter);
   if (to.isEmpty() || QFileInfo(to) == QFileInfo(from)) return; // it lies there
   try {
-    writeFile(to.toStdString(), readFile(from.toStdString()), true); // the dialog has asked
+    writeFile(to.toStdString(), readFile(from.toStdString()), true); // confirmed in the dialog
     emit message(tr("Wrote %1.").arg(to));
   } catch (const Error& error) {
     QMessageBox::warning(this, title, QString::fromStdString(error.what()));

@@ -14,7 +14,7 @@ class ReportPicture : public QScrollArea {
   Q_OBJECT
 
 public:
-  /// `words` stand there while there is no picture.
+  /// `words` are shown while there is no picture.
   explicit ReportPicture(const QString& words, QWidget* parent = nullptr);
 
   /// Nothing where the file holds no picture.
@@ -34,7 +34,7 @@ protected:
 
 private:
   void fit();
-  /// Writes a file of the report where it is asked for.
+  /// Asks for a path and writes a file of the report to it.
   void saveAs(const QString& from, const QString& title, const QString& filter);
 
   QString words_;

@@ -13,9 +13,8 @@ namespace {
 constexpr double kTrust = 0.05; ///< share of the plan that counts as run as planned, before anything is known
 constexpr double kShortest_s = 0.01;
 
-constexpr double kStep = 0.005; ///< share of the run's time that a step takes at least, to be kept as one
-constexpr const char* kSpeed =
-    "reportSpeed"; ///< seconds of the last report here for each second that it was said to take
+constexpr double kStep = 0.005;               ///< share of the run's time that a step takes at least, to be kept as one
+constexpr const char* kSpeed = "reportSpeed"; ///< time of the last report here over its estimate
 
 QString key(const QString& kind) {
   return "reportTimes/" + kind;
@@ -43,7 +42,7 @@ std::vector<RunMoment> momentsOf(const QStringList& texts) {
 }
 
 /// The same of a run of `all` seconds, without the moments between which hardly any time passed: both ends of each
-/// step stay, because the progress stands still at the first of them.
+/// step stay, because the progress stops at the first of them.
 QStringList textsOf(const std::vector<RunMoment>& moments, double all) {
   QStringList texts;
   RunMoment kept;

@@ -8,13 +8,13 @@
 
 namespace palp {
 
-/// A moment of a run: how far it was, as its progress said it.
+/// A moment of a run: its reported progress.
 struct RunMoment {
   double share = 0;   ///< 0..1
   double seconds = 0; ///< since its begin
 };
 
-/// How long a report takes, part by part, and what is left of it.
+/// How long a report takes, part by part, and its remaining time.
 class ReportPlan {
 public:
   ReportPlan() = default;
@@ -28,7 +28,7 @@ public:
   [[nodiscard]] double seconds() const;
   /// Of a run on this machine that took so long, part by part as it comes with Palp.
   void setSeconds(double seconds);
-  /// What is left [s] after so many seconds, where `last` is the moment at which the run's progress was told last: the
+  /// Remaining time [s] after this many seconds, where `last` is the moment of the last reported progress: the
   /// plan's rest, as much slower or faster as the run was until then, less what passed since. At least what the plan
   /// asks for after the step that runs now, however long that step takes.
   [[nodiscard]] double left_s(const RunMoment& last, double elapsed_s) const;

@@ -6,7 +6,7 @@
 
 namespace palp {
 
-/// A run of palp beside the window: what it says, how far it is and how it ended.
+/// A run of palp as a separate process: its messages, its progress and how it ended.
 class ReportRun : public QObject {
   Q_OBJECT
 
@@ -18,7 +18,7 @@ public:
 
   void start(const QString& program, const QStringList& arguments);
   void cancel();
-  /// Ends it for good, within seconds, and says nothing of it.
+  /// Ends it within seconds, without a message.
   void kill();
   [[nodiscard]] bool running() const { return process_.state() != QProcess::NotRunning; }
   [[nodiscard]] double seconds() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }

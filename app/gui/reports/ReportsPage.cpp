@@ -8,7 +8,7 @@
 #include "app/gui/reports/ReportPicture.h"
 #include "app/gui/reports/StudyForm.h"
 #include "app/gui/reports/WrittenReports.h"
-#include "app/gui/widgets/PushButton.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "io/DesignFile.h"
 #include "model/base/Error.h"
 
@@ -42,7 +42,7 @@ namespace {
 constexpr const char* kFolderKey = "reportsFolder";
 constexpr const char* kPage = "report.html";
 
-/// What its run said; empty where that was not kept.
+/// The messages of its run; empty where they were not kept.
 QString messagesIn(const QString& folder) {
   QFile messages(QDir(folder).filePath(kReportMessages));
   return messages.open(QIODevice::ReadOnly) ? QString::fromUtf8(messages.readAll()) : QString();
@@ -83,27 +83,18 @@ void ReportsPage::build() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   column->addLayout(buildBar());
-  what_ = new QLabel;
-  what_->setObjectName("reportWhat");
-  what_->setProperty("role", "hint");
-  what_->setWordWrap(true);
+  what_ = textLabel("reportWhat", "hint");
   connect(kind_, &QComboBox::currentIndexChanged, this, &ReportsPage::chooseKind);
   column->addWidget(what_);
   study_ = new StudyForm(workbench_);
   connect(study_, &StudyForm::changed, this, [this] {
     if (isStudy()) chooseKind();
   });
-  column->addWidget(study_);
-  column->addLayout(buildFolder());
-  column->addLayout(buildState());
-  column->addWidget(buildViews(), 1);
+  addTo(*column, {study_, buildFolder(), buildState(), {buildViews(), 1}});
 }
 
 QLayout* ReportsPage::buildBar() {
-  kind_ = new QComboBox;
-  kind_->setObjectName("reportKind");
-  kind_->setAccessibleName(tr("Report"));
-  kind_->setToolTip(tr("Which report"));
+  kind_ = choiceBox("reportKind", {}, tr("Which report"), tr("Report"));
   for (const ReportKind& kind : reportKinds()) {
     kind_->addItem(kind.title);
     kind_->setItemData(kind_->count() - 1, kind.what, Qt::ToolTipRole);
@@ -142,11 +133,7 @@ QLayout* ReportsPage::buildFolder() {
   });
   auto* words = new QLabel(tr("Save to"));
   words->setBuddy(target_);
-  auto* row = new QHBoxLayout;
-  row->addWidget(words);
-  row->addWidget(target_, 1);
-  row->addWidget(choose);
-  return row;
+  return inRow({words, {target_, 1}, choose});
 }
 
 QLayout* ReportsPage::buildState() {
@@ -154,19 +141,13 @@ QLayout* ReportsPage::buildState() {
   bar_->setFixedWidth(160);
   bar_->setRange(0, 1000);
   bar_->hide();
-  state_ = new QLabel;
-  state_->setObjectName("reportState");
-  state_->setWordWrap(true);
+  state_ = textLabel("reportState");
   state_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard); // paths are copied
   state_->setMinimumHeight(bar_->sizeHint().height()); // what is below stays where it is
   showNew_ = pushButton(tr("Show the new report"), "showNewReport",
                         tr("Shows the report that has just finished instead of the selected one"));
   showNew_->hide();
-  auto* state = new QHBoxLayout;
-  state->addWidget(bar_);
-  state->addWidget(state_, 1);
-  state->addWidget(showNew_);
-  return state;
+  return inRow({bar_, {state_, 1}, showNew_});
 }
 
 QWidget* ReportsPage::buildViews() {
@@ -309,7 +290,7 @@ void ReportsPage::listReports() {
 }
 
 void ReportsPage::showWritten(const QString& folder) {
-  const bool running = run_.running(); // its kind, its time and what it says stay in sight
+  const bool running = run_.running(); // its kind, its time and its messages stay visible
   if (QFileInfo::exists(QDir(folder).filePath(kStudyFile)))
     return running ? say(tr("A cancelled study can be continued when this report is done.")) : showUnfinished(folder);
   if (!QFileInfo::exists(QDir(folder).filePath(kPage))) {
@@ -340,7 +321,7 @@ QString ReportsPage::endsWords() const {
                    : tr("A report is running and will be cancelled; its results are lost.");
 }
 
-/// Its form again, so that Run goes on with it.
+/// Shows its form again, so that Run continues it.
 void ReportsPage::showUnfinished(const QString& folder) {
   try {
     openStudy(QDir(folder).filePath(kStudyFile));
@@ -377,7 +358,7 @@ void ReportsPage::say(const QString& sentence) {
     state_->setText(sentence);
 }
 
-/// The desktop does not say whether a program came up, so the path is always said.
+/// The desktop does not report whether a program started, so the path is always shown.
 void ReportsPage::openOnDesktop(const QString& path, const QString& what) {
   const bool asked = QDesktopServices::openUrl(QUrl::fromLocalFile(path));
   say(asked ? tr("Opened %1 in your default application. If nothing appears, open %2.").arg(what, path)

@@ -29,9 +29,9 @@ class PageWords;
 class WrittenReports;
 struct ReportKind;
 
-/// The reports, run by the command line program beside this one, so that a report can neither block nor break the
-/// window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes the
-/// place of another, and those of before are listed and shown again.
+/// The reports, run by the command line program in a process of its own, so that a report can neither block nor break
+/// the window; its page and pictures are shown when it is done. Each run has a folder of its own, so that none takes
+/// the place of another, and those of before are listed and shown again.
 class ReportsPage : public Scene, public ExportFiles {
   Q_OBJECT
 
@@ -46,7 +46,7 @@ public:
   /// The pictures and points of the report that is shown.
   [[nodiscard]] QStringList exportFiles() const override;
 
-  /// Another program in place of the palp that lies beside this one.
+  /// Another program instead of the palp in this program's folder.
   void setProgram(const QString& program) { program_ = program; }
 
   /// Shows the file of a study in the form. Throws Error.
@@ -59,7 +59,7 @@ public:
   void cancel() { run_.cancel(); }
 
 signals:
-  /// What is told of the report in every scene while it runs; empty: none runs.
+  /// The status of the report for all scenes while it runs; empty: none runs.
   void runs(const QString& words);
   /// How a report ended, and where it lies.
   void message(const QString& sentence);
@@ -76,7 +76,7 @@ private:
   QWidget* buildViews();
   /// Of palp, for the chosen report into a folder.
   [[nodiscard]] QStringList arguments(const Project& project, const QString& folder) const;
-  /// The same of a run: also what is not said of the command that the scene shows.
+  /// The same of a run: also what the command shown by the scene leaves out.
   [[nodiscard]] QStringList runArguments(const QString& folder) const;
   [[nodiscard]] const ReportKind& kind() const;
   [[nodiscard]] bool isStudy() const;
@@ -91,10 +91,10 @@ private:
   void end(ReportRun::Ending how);
   /// What came of the run: shown where nothing else is, else offered.
   void offerRun(bool done);
-  /// What is left of the run [s].
+  /// Remaining time of the run [s].
   [[nodiscard]] double left_s() const;
   void showTime();
-  /// Says it; while a report runs beside its time.
+  /// Shows it; while a report runs, next to its time.
   void say(const QString& sentence);
   void listReports();
   /// One that was written before.
@@ -113,7 +113,7 @@ private:
   double share_ = 0;
   QString runFolder_; ///< of the run
   QString shown_;     ///< folder of the report that is shown
-  QString note_;      ///< what is said beside the time of the run
+  QString note_;      ///< shown next to the time of the run
   StudyForm* study_ = nullptr;
   QComboBox* kind_ = nullptr;
   QSpinBox* perArea_ = nullptr; ///< seen where a report draws samples

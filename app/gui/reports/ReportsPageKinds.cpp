@@ -5,6 +5,7 @@
 #include "app/gui/reports/ReportCases.h"
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/reports/StudyForm.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "model/base/Error.h"
 
@@ -28,7 +29,7 @@ bool ReportsPage::isStudy() const {
 
 QStringList ReportsPage::arguments(const Project& project, const QString& folder) const {
   QStringList all = kind().arguments;
-  if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file says the rest
+  if (isStudy()) return all << QDir(folder).filePath(kStudyFile) << "-o" << folder; // its file has the rest
   if (all.front() == "report") all << "--per-area" << QString::number(project.view.reportPerArea);
   return all + meshOption(project.mesh).split(' ', Qt::SkipEmptyParts) + QStringList{"-o", folder};
 }
@@ -48,17 +49,12 @@ QString ReportsPage::commands(const Project& project, const QString& designFile)
 
 /// How many, where a report draws samples.
 void ReportsPage::buildSamplesBox() {
-  perArea_ = new WholeBox;
-  perArea_->setObjectName("reportPerArea");
-  perArea_->setRange(5, 100000);
-  perArea_->setKeyboardTracking(false);
+  perArea_ = wholeBox("reportPerArea", {.low = 5, .high = 100000}, {});
   perArea_->setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue); // 1 is 5, not what it was
   perArea_->setPrefix(tr("Samples per area: "));
   perArea_->setToolTip(tr("Number of random forces on each area that the report generates; 5 or more"));
   connect(perArea_, &QSpinBox::valueChanged, this, [this](int perArea) {
-    Project next = workbench_.project();
-    next.view.reportPerArea = perArea;
-    workbench_.edit(tr("samples of a report"), next);
+    workbench_.edit(tr("Change the samples of a report"), [&](Project& next) { next.view.reportPerArea = perArea; });
     chooseKind(); // its time
   });
 }
@@ -102,14 +98,14 @@ void ReportsPage::planStudy() {
                         .arg(roughly(parts.front().seconds)));
     start_->setEnabled(true);
   } catch (const Error&) {
-    state_->setText(tr("No study yet: see the error above.")); // the form says it
+    state_->setText(tr("No study yet: see the error above.")); // shown by the form
     start_->setEnabled(false);
   }
   plan_ = std::make_unique<ReportPlan>(kStudyKind, parts);
   cases_->show(*plan_);
 }
 
-/// What stands above it is of its kind, where that is known.
+/// The text above it is for its kind, where that is known.
 void ReportsPage::chooseKindOf(const QString& folder) {
   const QString wanted = kindOfReport(folder);
   QWidget* tab = tabs_->currentWidget();

@@ -5,6 +5,7 @@
 #include "app/gui/reports/ReportKinds.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/widgets/KeepRoom.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/UnclearComma.h"
 #include "app/gui/widgets/WrappedLabel.h"
@@ -35,7 +36,7 @@ namespace palp {
 
 namespace {
 
-constexpr int kMostAxes = 4;  // that are seen at once
+constexpr int kMostAxes = 4;  // that are visible together
 constexpr int kHypercube = 1; // in the list of plans
 constexpr int kOfTheFile = 1; // in the list of designs
 
@@ -50,20 +51,9 @@ QWidget* rowOf(const std::vector<QWidget*>& widgets, bool stretched = true) {
 }
 
 QSpinBox* spin(const char* name, int low, int high, int value, const QString& words, const QString& tip) {
-  auto* box = new WholeBox;
-  box->setObjectName(name);
-  box->setRange(low, high);
+  auto* box = wholeBox(name, {.low = low, .high = high, .whileTyping = true}, tip, words);
   box->setValue(value);
-  box->setAccessibleName(words);
-  box->setToolTip(tip);
   return box;
-}
-
-QPushButton* pushButton(const char* name, const QString& words, const QString& tip) {
-  auto* push = new QPushButton(words);
-  push->setObjectName(name);
-  push->setToolTip(tip);
-  return push;
 }
 
 struct QuantityWords {
@@ -98,9 +88,7 @@ void StudyForm::build() {
   setObjectName("studyForm");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(buildSettings());
-  column->addWidget(buildAxes());
-  column->addWidget(buildQuantities());
+  addTo(*column, {buildSettings(), buildAxes(), buildQuantities()});
   problem_ = problemLabel();
   problem_->setObjectName("studyProblem");
   keepRoom(*problem_);
@@ -109,22 +97,19 @@ void StudyForm::build() {
 }
 
 QWidget* StudyForm::buildSettings() {
-  base_ = new QComboBox;
-  base_->setObjectName("studyDesign");
-  base_->setAccessibleName(tr("Base design"));
-  base_->setToolTip(tr("Design whose parameters vary, and its mesh: that of the project, or that of the study file"));
+  base_ = choiceBox("studyDesign", {},
+                    tr("Design whose parameters vary, and its mesh: that of the project, or that of the study file"),
+                    tr("Base design"));
   base_->addItem(tr("The project's design"));
-  plan_ = new QComboBox;
-  plan_->setObjectName("studyPlan");
-  plan_->setAccessibleName(tr("Designs"));
-  plan_->setToolTip(tr("Every combination of all values, or a Latin hypercube: a given number of designs, one in each "
-                       "of as many strata of every parameter"));
-  plan_->addItems({tr("Every combination"), tr("Latin hypercube of")});
+  plan_ = choiceBox("studyPlan", {tr("Every combination"), tr("Latin hypercube of")},
+                    tr("Every combination of all values, or a Latin hypercube: a given number of designs, one in each "
+                       "of as many strata of every parameter"),
+                    tr("Designs"));
   points_ = spin("studyPoints", 2, 1'000'000, 20, tr("Designs of the hypercube"), tr("Designs of the Latin hypercube"));
   seed_ = spin("studySeed", 0, std::numeric_limits<int>::max(), 1, tr("Seed"), tr("Seed of all random numbers"));
-  auto* openFile = pushButton("openStudy", tr("Open..."), tr("Opens a study file"));
+  auto* openFile = pushButton(tr("Open..."), "openStudy", tr("Opens a study file"));
   auto* saveFile =
-      pushButton("saveStudy", tr("Save..."), tr("Saves the study as a file for palp study and palp cluster"));
+      pushButton(tr("Save..."), "saveStudy", tr("Saves the study as a file for palp study and palp cluster"));
   connect(openFile, &QPushButton::clicked, this, &StudyForm::open);
   connect(saveFile, &QPushButton::clicked, this, &StudyForm::save);
   connect(base_, &QComboBox::currentIndexChanged, this, &StudyForm::check);
@@ -138,7 +123,7 @@ QWidget* StudyForm::buildAxes() {
   axesColumn_ = new QVBoxLayout(inside);
   axesColumn_->setContentsMargins(0, 0, 0, 0);
   axesColumn_->setSpacing(2);
-  auto* more = pushButton("addStudyKey", tr("Add parameter"), tr("Adds a parameter of the design that varies"));
+  auto* more = pushButton(tr("Add parameter"), "addStudyKey", tr("Adds a parameter of the design that varies"));
   connect(more, &QPushButton::clicked, this, [this] {
     for (const std::string& key : studyKeys(design())) {
       const QString name = QString::fromStdString(key);
@@ -164,9 +149,7 @@ QWidget* StudyForm::buildQuantities() {
   std::vector<QWidget*> row{new QLabel(tr("Compute"))};
   for (const auto& [quantity, name] : kStudyQuantities.all()) {
     const QuantityWords& words = kQuantityWords.at(quantities_.size());
-    auto* box = new QCheckBox(tr(words.name));
-    box->setObjectName(QString("study-") + name);
-    box->setToolTip(tr(words.tip));
+    auto* box = checkBox(tr(words.name), QString("study-") + name, tr(words.tip));
     box->setChecked(quantity == StudyQuantity::Bound || quantity == StudyQuantity::Displacement);
     connect(box, &QCheckBox::toggled, this, &StudyForm::check);
     quantities_.push_back(box);
@@ -195,7 +178,7 @@ QWidget* StudyForm::buildQuantities() {
 QWidget* StudyForm::buildResult() {
   chosen_ = spin("studyChosen", 0, 0, 0, tr("Number of the design"),
                  tr("Number of the design in the first column of the table"));
-  take_ = pushButton("takeStudyDesign", tr("Use this design"),
+  take_ = pushButton(tr("Use this design"), "takeStudyDesign",
                      tr("Makes this design of the study the project's design; this can be undone"));
   connect(take_, &QPushButton::clicked, this, &StudyForm::takeOver);
   result_ = rowOf({new QLabel(tr("Design number")), chosen_, take_});
@@ -208,7 +191,8 @@ const SensorDesign& StudyForm::design() const {
 
 QString StudyForm::proposal(const QString& key) const {
   const std::vector<std::string> keys = studyKeys(design());
-  if (std::find(keys.begin(), keys.end(), key.toStdString()) == keys.end()) return {}; // typed: check() says what it is
+  if (std::find(keys.begin(), keys.end(), key.toStdString()) == keys.end())
+    return {}; // typed: check() reports what it is
   const double value = studyNumber(design(), key.toStdString());
   if (key.startsWith("areas.")) return QString("%1, %2").arg(value).arg(value + 1); // whole numbers
   const auto rounded = [](double number) { return QString::number(number, 'g', 3); };
@@ -384,7 +368,7 @@ void StudyForm::save() {
   try {
     const std::string content = toJson(plan());
     const QString file = askFileToSave(this, tr("Save study"), "study.json", tr("Studies (*.json)"));
-    if (!file.isEmpty()) writeFile(file.toStdString(), content, true); // the dialog asked before
+    if (!file.isEmpty()) writeFile(file.toStdString(), content, true); // confirmed in the dialog
   } catch (const Error& error) {
     problem_->say(QString::fromStdString(error.what()));
   }
@@ -397,7 +381,7 @@ void StudyForm::takeOver() {
     Project next = workbench_.project();
     next.design = study.at(static_cast<std::size_t>(number));
     show(study); // on the design it was of, not on the one that is taken over
-    workbench_.edit(tr("design %1 of the study").arg(number), next);
+    workbench_.edit(tr("Use design %1 of the study").arg(number), next);
     workbench_.closeEntry();
   } catch (const Error& error) {
     problem_->say(QString::fromStdString(error.what()));

@@ -32,9 +32,9 @@ public:
   /// Shows a study, with the design and the mesh that it holds.
   void show(const StudyPlan& plan);
 
-  /// A study in this folder was stopped; its next run goes on there, if the form says the same then.
+  /// A study in this folder was stopped; its next run continues there, if the form is unchanged then.
   void goOnIn(const QString& folder) { unfinished_ = folder; }
-  /// The folder of the study's run, its file within: the one it goes on in, or a new one below `base`. Throws Error.
+  /// The folder of the study's run, its file within: the one it continues in, or a new one below `base`. Throws Error.
   [[nodiscard]] QString runFolder(const QString& base) const;
 
 signals:
@@ -61,7 +61,7 @@ private:
   /// Ten per cent to both sides of what the design has.
   [[nodiscard]] QString proposal(const QString& key) const;
   [[nodiscard]] const SensorDesign& design() const;
-  /// The keys of the design on which the study stands.
+  /// The keys of the study's base design.
   void listKeys();
   void check();
   void open();

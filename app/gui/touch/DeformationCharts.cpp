@@ -68,7 +68,7 @@ ChartSpec rowWireShapeChart(const SensorDesign& design, const ElectrodeDisplacem
   const int count = design.electrodesPerRowWire();
   const Eigen::Matrix3Xd rest = design.upperElectrodes_mm().middleCols(rowWire * count, count);
   const Eigen::Matrix3Xd moved = displacements.upper_mm.middleCols(rowWire * count, count);
-  const double factor = automaticWarpFactor(design, moved);
+  const double factor = automaticDeformationScale(design, moved);
   ChartSpec spec;
   spec.title =
       "Row-wire " + std::to_string(rowWire) + " seen along y, displacements enlarged " + shortText(factor) + " times";

@@ -22,8 +22,8 @@ ChartSpec rowWireShapeChart(const SensorDesign& design, const ElectrodeDisplacem
 /// The coloured quantity along the straight line between two points at rest; keeps what finds the line in the mesh.
 class LinePlot {
 public:
-  /// A sentence instead of a title where the line leaves the block. `kept`: fields of the kept design at the mesh's
-  /// nodes, drawn beside; may be null.
+  /// A sentence instead of a title where the line leaves the block. `kept`: fields of the reference design at the
+  /// mesh's nodes, drawn in addition; may be null.
   ChartSpec chart(const Mesh& mesh, const NodalFields& fields, const ViewSettings& view, const NodalFields* kept);
   /// The mesh it was found in is gone.
   void reset() { probe_.reset(); }

@@ -11,6 +11,7 @@
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/window/SidePanel.h"
 
 #include <QButtonGroup>
@@ -77,9 +78,9 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
   connect(block_, &BlockView::indenterSized, load_, &LoadPanel::sizeIndenter);
   connect(block_, &BlockView::wayDrawn, steps_, &PathPanel::draw);
   connect(steps_, &PathPanel::message, this, &DeformationPage::message);
-  connect(result_, &ResultPanel::uniformAsked, this, [this](bool on) {
+  connect(result_, &ResultPanel::uniformRequested, this, [this](bool on) {
     ViewSettings view = workbench_.project().view;
-    view.lessKept = view.uniform = on;
+    view.lessReference = view.uniform = on;
     editView(tr("Compare with uniform load"), view);
   });
   connect(block_, &BlockView::cutDragged, this, [this](double at_mm) {
@@ -89,14 +90,14 @@ DeformationPage::DeformationPage(Workbench& workbench, QWidget* parent) : Scene(
     editView(tr("Move the cut"), view);
   });
   connect(block_, &BlockView::forceDragged, this, &DeformationPage::setForce);
-  connect(result_, &ResultPanel::estimateAsked, this, [this] { workbench_.touch().estimateError(); });
+  connect(result_, &ResultPanel::estimateRequested, this, [this] { workbench_.touch().estimateError(); });
   connect(&workbench_, &Workbench::projectChanged, this, &DeformationPage::displayProject);
   connect(&workbench_, &Workbench::projectReplaced, this, [this] {
     lineStart_ = -1;
     probe(-1);
   });
   connect(&workbench_.touch(), &TouchSession::changed, this, &DeformationPage::displayTouch);
-  connect(&workbench_.kept(), &KeptTouch::changed, this, [this] { displayTouch(false); });
+  connect(&workbench_.kept(), &ReferenceTouch::changed, this, [this] { displayTouch(false); });
   connect(&workbench_.touch(), &TouchSession::newtonStepped, this, [this] { tabs_->drawNewton(); });
   connect(&workbench_.touch(), &TouchSession::errorEstimated, this, [this](double relative, const QString& method) {
     result_->setErrorWords(std::isnan(relative) ? method : tr("%1 % (%2)").arg(100 * relative, 0, 'g', 3).arg(method));
@@ -112,10 +113,7 @@ QWidget* DeformationPage::buildPanels() {
   load_ = new LoadPanel;
   view_ = new ViewPanel;
   result_ = new ResultPanel;
-  column->addWidget(group(tr("Load"), load_));
-  column->addWidget(group(tr("View"), view_));
-  column->addWidget(group(tr("Result"), result_));
-  column->addStretch(1);
+  addTo(*column, {group(tr("Load"), load_), group(tr("View"), view_), group(tr("Result"), result_), Part::stretch()});
   return sidePanel(panels, kPanelWidth_px);
 }
 
@@ -193,7 +191,7 @@ void DeformationPage::setTheme(Theme theme) {
 }
 
 bool DeformationPage::complete() const {
-  const bool compared = !lessKept() || shownLess() || !workbench_.kept().problem().isEmpty();
+  const bool compared = !lessReference() || shownLess() || !workbench_.kept().problem().isEmpty();
   return workbench_.touch().fields() != nullptr && workbench_.touch().upToDate() && compared && tabs_->complete();
 }
 
@@ -214,31 +212,31 @@ void DeformationPage::displayProject() {
   tabs_->displayProject(project);
   if (!workbench_.touch().upToDate()) result_->setErrorWords({});
   if (isVisible()) displayResult();
-  if (lessKept() || drawn_.lessKept)
+  if (lessReference() || drawn_.lessReference)
     displayTouch(false);
   else if (!(drawn_ == project.view) || drawnPath_ != project.path)
     drawBlock(false);
 }
 
-bool DeformationPage::lessKept() const {
-  return workbench_.project().view.lessKept && workbench_.comparable();
+bool DeformationPage::lessReference() const {
+  return workbench_.project().view.lessReference && workbench_.comparable();
 }
 
-std::shared_ptr<const KeptPath> DeformationPage::shownLess() const {
-  return lessKept() ? workbench_.keptPath() : nullptr;
+std::shared_ptr<const ReferencePath> DeformationPage::shownLess() const {
+  return lessReference() ? workbench_.referencePath() : nullptr;
 }
 
 void DeformationPage::displayResult() {
   result_->display(workbench_.touch());
   const auto kept = shownLess();
   result_->displayDifference(workbench_.project(), workbench_.touch(), kept.get(),
-                             lessKept() ? workbench_.kept().problem() : QString());
+                             lessReference() ? workbench_.kept().problem() : QString());
 }
 
 void DeformationPage::displayTouch(bool meshChanged) {
   meshDrawn_ = meshDrawn_ && !meshChanged;
   if (meshChanged) probedNode_ = lineStart_ = -1;
-  if (isVisible() && lessKept()) workbench_.needKept();
+  if (isVisible() && lessReference()) workbench_.needReference();
   tabs_->displayTouch(meshChanged, shownLess());
   if (!isVisible()) return;
   drawBlock(meshChanged);
@@ -253,16 +251,17 @@ DeformationOptions DeformationPage::blockOptions() const {
   DeformationOptions options = view.blockOptions();
   options.theme = theme_;
   options.cutGrip = true;
-  options.lessKept = lessKept();
+  options.lessReference = lessReference();
   const auto kept = shownLess();
-  // One scale and one warp on the whole load path.
+  // One colour scale and one deformation scale on the complete load path.
   if (const NodalFields* end = workbench_.touch().endFields(); end != nullptr) {
-    if (!options.fixedRange && !options.lessKept)
+    if (!options.fixedRange && !options.lessReference)
       options.fixedRange = quantityRange(options, quantityValues(options.quantity, *end));
     if (!options.fixedRange && kept)
       options.fixedRange = quantityRange(
           options, quantityValues(options.quantity, *end, kept->at(touch.solution()->reachedLoadFraction).fields));
-    if (!options.warpFactor) options.warpFactor = automaticWarpFactor(touch.design(), end->displacement_mm);
+    if (!options.deformationScale)
+      options.deformationScale = automaticDeformationScale(touch.design(), end->displacement_mm);
   }
   options.scale = devicePixelRatioF();
   options.way_mm = wayOf(workbench_.project().load, workbench_.project().path);
@@ -289,13 +288,13 @@ void DeformationPage::drawBlock(bool meshChanged) {
   const auto kept = shownLess();
   std::optional<LoadPathState> less;
   if (kept) {
-    state.keptDesign = &kept->design;
+    state.referenceDesign = &kept->design;
     state.keptLoad = &kept->load;
     state.kept = &less.emplace(kept->at(touch.loadFraction())).fields;
   }
   block_->show(state, blockOptions(), meshChanged || !meshDrawn_);
   meshDrawn_ = true;
-  view_->displayDrawn(block_->warpFactor(), block_->colorRange());
+  view_->displayDrawn(block_->deformationScale(), block_->colorRange());
 }
 
 void DeformationPage::chooseTool(Click click) {
@@ -372,9 +371,7 @@ void DeformationPage::setForce(int load, const Eigen::Vector3d& drawn_N) {
 }
 
 void DeformationPage::editView(const QString& what, const ViewSettings& view) {
-  Project next = workbench_.project();
-  next.view = view;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.view = view; });
 }
 
 void DeformationPage::probe(int node) {

@@ -28,7 +28,7 @@ public:
   /// How the block is drawn now.
   [[nodiscard]] DeformationOptions blockOptions() const;
   /// What the block is drawn less, where it is; null where not, and before it is computed.
-  [[nodiscard]] std::shared_ptr<const KeptPath> shownLess() const;
+  [[nodiscard]] std::shared_ptr<const ReferencePath> shownLess() const;
   [[nodiscard]] QString commands(const Project& project, const QString& designFile) const override;
 
 signals:
@@ -38,7 +38,7 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private:
-  [[nodiscard]] bool lessKept() const;
+  [[nodiscard]] bool lessReference() const;
   /// What a click on the block does.
   enum class Click { Probe, Load, Disc, Indenter, Line };
 
@@ -52,7 +52,7 @@ private:
   void probe(int node);
   void clicked(int node);
   void chooseTool(Click click);
-  /// A press on the top face, as the tool says: chooses a load, makes one, or takes a disc away.
+  /// A press on the top face, by the selected tool: selects a load, adds one, or removes a disc.
   void press(const Eigen::Vector3d& rest_mm);
   void addLineEnd(int node);
   void setForce(int load, const Eigen::Vector3d& drawn_N);

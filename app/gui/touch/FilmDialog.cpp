@@ -1,5 +1,6 @@
 #include "app/gui/touch/FilmDialog.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
@@ -35,33 +36,22 @@ std::optional<FilmSettings> askForFilm(QWidget* parent, const QSize& view) {
   dialog.setObjectName("film");
   dialog.setWindowTitle(QObject::tr("Film of the load path"));
   auto* form = new QFormLayout(&dialog);
-  auto* kind = new QComboBox;
-  kind->setObjectName("filmKind");
-  kind->addItems({QObject::tr("Animated GIF"), QObject::tr("Numbered PNG pictures in a folder")});
+  auto* kind =
+      choiceBox("filmKind", {QObject::tr("Animated GIF"), QObject::tr("Numbered PNG pictures in a folder")},
+                QObject::tr("A GIF plays directly in slides and browsers, with 256 colours. Numbered PNG pictures "
+                            "can be turned into a full-colour video with another program."));
   kind->setCurrentIndex(kept.value("film/gif", usual.gif).toBool() ? 0 : 1);
-  kind->setToolTip(QObject::tr("A GIF plays directly in slides and browsers, with 256 colours. Numbered PNG pictures "
-                               "can be turned into a full-colour video with another program."));
-  auto* pictures = new WholeBox;
-  pictures->setObjectName("filmPictures");
-  pictures->setRange(2, 500);
+  auto* pictures = wholeBox("filmPictures", {.low = 2, .high = 500, .whileTyping = true},
+                            QObject::tr("Number of pictures from rest to the full load, in equal steps of the load"));
   pictures->setValue(kept.value("film/pictures", usual.pictures).toInt());
-  pictures->setToolTip(QObject::tr("Number of pictures from rest to the full load, in equal steps of the load"));
-  auto* width = new WholeBox;
-  width->setObjectName("filmWidth");
-  width->setRange(100, 3840);
-  width->setSuffix(QObject::tr(" px"));
+  auto* width = wholeBox("filmWidth", {.low = 100, .high = 3840, .unit = QObject::tr(" px"), .whileTyping = true},
+                         QObject::tr("Width of the pictures, which have the shape of the view"));
   width->setValue(kept.value("film/width", usual.width_px).toInt());
-  width->setToolTip(QObject::tr("Width of the pictures, which have the shape of the view"));
-  auto* seconds = new NumberBox;
-  seconds->setObjectName("filmSeconds");
-  seconds->setRange(0.5, 120);
-  seconds->setDecimals(1);
-  seconds->setSuffix(QObject::tr(" s"));
+  auto* seconds =
+      numberBox("filmSeconds", {.low = 0.5, .high = 120, .decimals = 1, .unit = QObject::tr(" s"), .whileTyping = true},
+                QObject::tr("Duration of the film before it repeats"));
   seconds->setValue(kept.value("film/seconds", usual.seconds).toDouble());
-  seconds->setToolTip(QObject::tr("Duration of the film before it repeats"));
-  auto* words = new QLabel;
-  words->setObjectName("filmWords");
-  words->setWordWrap(true);
+  auto* words = textLabel("filmWords");
   form->addRow(QObject::tr("Create"), kind);
   form->addRow(QObject::tr("Pictures"), pictures);
   form->addRow(QObject::tr("Width"), width);

@@ -8,7 +8,7 @@ class QComboBox;
 
 namespace palp {
 
-/// The law of the resistances and its read-out, to be switched beside what they give; its numbers stand in the Design
+/// The law of the resistances and its read-out, to be switched next to their results; its numbers are in the Design
 /// scene.
 class LawBar : public QWidget {
   Q_OBJECT

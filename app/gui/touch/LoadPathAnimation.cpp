@@ -33,7 +33,7 @@ std::string frameName(int frame) {
   return name.data();
 }
 
-/// Says which picture is drawn, and how long the rest will take.
+/// Reports which picture is drawn, and how long the rest will take.
 class FrameProgress {
 public:
   FrameProgress(JobProgress& progress, int frames) : progress_(progress), frames_(frames) {
@@ -75,7 +75,7 @@ bool drawPictures(const LoadPathAnimation::Settings& settings, const Drawn& draw
 /// False where it was stopped.
 bool drawGif(const LoadPathAnimation::Settings& settings, const Drawn& drawn, FrameProgress& progress,
              const std::stop_token& stop) {
-  requireWritable(settings.gif, true); // what cannot be written is said before the work
+  requireWritable(settings.gif, true); // a file that cannot be written is reported before the work
   const int last = settings.frames - 1;
   std::map<int, Picture> typical; // for the palette; they are not drawn twice
   for (const int frame : {0, last / 2, last}) {
@@ -88,7 +88,7 @@ bool drawGif(const LoadPathAnimation::Settings& settings, const Drawn& drawn, Fr
   std::vector<Picture> pictures;
   for (const auto& [frame, picture] : typical) pictures.push_back(picture);
   GifFilm film(pictures);
-  int shown = 0; // hundredths of a second, rounded over the whole film
+  int shown = 0; // hundredths of a second, rounded over the complete film
   for (int frame = 0; frame < settings.frames; ++frame) {
     auto picture = typical.contains(frame) ? std::optional(typical.at(frame)) : std::nullopt;
     if (!picture) {
@@ -140,7 +140,7 @@ struct LoadPathAnimation::Path {
   std::vector<LoadPathState> states;
 };
 
-/// A picture asked of the window by the job, which waits for it.
+/// A picture requested from the window by the job, which waits for it.
 struct LoadPathAnimation::Order {
   std::shared_ptr<const Path> path;
   Settings settings;
@@ -166,7 +166,7 @@ bool LoadPathAnimation::start(const Settings& settings) {
     progress.set(-1, "Fields along the load path");
     path->states = loadPathStates(touch, stop);
     throwIfStopped(stop);
-    // One colour scale over the whole path.
+    // One colour scale over the complete path.
     Settings fixed = settings;
     std::vector<double> all;
     for (const LoadPathState& state : path->states) {
@@ -177,8 +177,9 @@ bool LoadPathAnimation::start(const Settings& settings) {
       all.insert(all.end(), values.begin(), values.end());
     }
     if (!fixed.options.fixedRange) fixed.options.fixedRange = quantityRange(settings.options, all);
-    if (!fixed.options.warpFactor)
-      fixed.options.warpFactor = automaticWarpFactor(touch.design(), path->states.back().fields.displacement_mm);
+    if (!fixed.options.deformationScale)
+      fixed.options.deformationScale =
+          automaticDeformationScale(touch.design(), path->states.back().fields.displacement_mm);
     const double last = path->states.back().fraction;
     const auto drawn = [&](int frame) -> std::optional<Picture> {
       auto order = std::make_shared<Order>();
@@ -234,7 +235,7 @@ Picture LoadPathAnimation::draw(const Path& path, const Settings& settings, cons
                          now.fraction, now.indenters};
   std::optional<LoadPathState> less;
   if (settings.kept) {
-    state.keptDesign = &settings.kept->design;
+    state.referenceDesign = &settings.kept->design;
     state.keptLoad = &settings.kept->load;
     state.kept = &less.emplace(settings.kept->at(now.fraction)).fields;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/scenes/Picture.h"
 #include "app/scenes/block/DeformationScene.h"
 
@@ -11,8 +11,8 @@ namespace palp {
 class BlockView;
 class TouchSession;
 
-/// The way from rest to the full load as an animated GIF or a series of pictures, with one warp factor and one colour
-/// scale throughout. Fields between two computed equilibria are interpolated; they and the files are made in the
+/// The path from rest to the full load as an animated GIF or a series of pictures, with one deformation scale and one
+/// colour scale throughout. Fields between two computed equilibria are interpolated; they and the files are made in the
 /// background, the pictures drawn in the window's thread, one an event. What is stopped or cannot be written leaves no
 /// part of a film.
 class LoadPathAnimation : public QObject {
@@ -21,7 +21,7 @@ class LoadPathAnimation : public QObject {
 public:
   struct Settings {
     DeformationOptions options;
-    std::shared_ptr<const KeptPath> kept; ///< that the colours are less of; null: of none
+    std::shared_ptr<const ReferencePath> kept; ///< that the colours are less of; null: of none
     int frames = 25;
     int width = 1200;
     int height = 800;

@@ -1,6 +1,7 @@
 #include "app/gui/touch/LoadPathBar.h"
 
 #include "app/gui/jobs/TouchSession.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QCheckBox>
 #include <QHBoxLayout>
@@ -31,9 +32,7 @@ LoadPathBar::LoadPathBar(TouchSession& session, QWidget* parent) : QWidget(paren
   play_->setShortcut(Qt::CTRL | Qt::Key_Space);
   play_->setToolTip(
       tr("Plays the load from rest to its full size (Ctrl+Space); File, Film of the load path saves it as a film"));
-  loop_ = new QCheckBox(tr("Loop"));
-  loop_->setObjectName("loopPath");
-  loop_->setToolTip(tr("Restarts the playback at rest when it ends"));
+  loop_ = checkBox(tr("Loop"), "loopPath", tr("Restarts the playback at rest when it ends"));
   words_ = new QLabel;
   words_->setObjectName("pathWords");
   slider_ = new QSlider(Qt::Horizontal);

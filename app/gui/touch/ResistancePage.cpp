@@ -10,6 +10,7 @@
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/views/ViewBar.h"
 #include "app/gui/widgets/FoldingRow.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -38,17 +39,11 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   pairs_ = new HeatmapView;
   pairs_->setObjectName("pairsHeatmap");
   pairs_->hide();
-  laws_ = new QLabel;
-  laws_->setObjectName("lawsCompared");
-  laws_->setWordWrap(true);
+  laws_ = textLabel("lawsCompared");
   laws_->hide();
   law_ = new LawBar;
   law_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
-  auto* laws = new QHBoxLayout;
-  laws->addWidget(law_);
-  laws->addWidget(laws_, 1);
-  laws->addStretch();
-  column->addLayout(laws);
+  column->addLayout(inRow({law_, {laws_, 1}, Part::stretch()}));
   row_ = new ChartView;
   row_->setObjectName("rowCurve");
   column_ = new ChartView;
@@ -62,15 +57,10 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
   auto* third = new QWidget;
   auto* around = new QVBoxLayout(third);
   around->setContentsMargins(0, 0, 0, 0);
-  currentWay_ = new QCheckBox(tr("Current paths"));
-  currentWay_->setObjectName("currentWay");
-  paths_ = new QLabel;
-  paths_->setObjectName("currentPaths");
-  paths_->setWordWrap(true);
+  currentPaths_ = checkBox(tr("Current paths"), "currentWay");
+  paths_ = textLabel("currentPaths");
   paths_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  around->addWidget(new FoldingRow(currentWay_, new ViewBar(*block_)));
-  around->addWidget(paths_);
-  around->addWidget(block_, 1);
+  addTo(*around, {new FoldingRow(currentPaths_, new ViewBar(*block_)), paths_, {block_, 1}});
   lower->addWidget(third);
   lower->setSizes({420, 420, 520});
   auto* views = new QSplitter(Qt::Vertical);
@@ -108,33 +98,29 @@ ResistancePage::ResistancePage(Workbench& workbench, QWidget* parent)
       edit(tr("Choose a cell"), view);
     });
   }
-  connect(currentWay_, &QCheckBox::toggled, this, [this](bool on) {
+  connect(currentPaths_, &QCheckBox::toggled, this, [this](bool on) {
     ViewSettings view = workbench_.project().view;
-    view.currentWay = on;
+    view.currentPaths = on;
     edit(tr("Show the current paths"), view);
   });
   connect(law_, &LawBar::edited, this, [this](const QString& what, const SensorDesign& design) {
-    Project next = workbench_.project();
-    next.design = design;
-    workbench_.edit(what, next);
+    workbench_.edit(what, [&](Project& next) { next.design = design; });
   });
   connect(law_, &LawBar::refused, reading_, &QLabel::setText);
-  for (FieldTouch* field : {&workbench_.field(), &workbench_.keptField()})
+  for (FieldTouch* field : {&workbench_.field(), &workbench_.referenceField()})
     connect(field, &FieldTouch::changed, this, [this] { draw(false); });
-  connect(&current_, &CurrentWay::changed, this, [this] {
+  connect(&current_, &CurrentPathsJob::changed, this, [this] {
     drawBlock(false);
     if (isVisible() && workbench_.touch().electrodes() != nullptr) displayWords(cell());
   });
   connect(&workbench_, &Workbench::projectChanged, this, &ResistancePage::displayProject);
   connect(&workbench_.touch(), &TouchSession::changed, this, &ResistancePage::draw);
-  connect(&workbench_.kept(), &KeptTouch::changed, this, [this] { draw(false); });
+  connect(&workbench_.kept(), &ReferenceTouch::changed, this, [this] { draw(false); });
   displayProject();
 }
 
 void ResistancePage::edit(const QString& what, const ViewSettings& view) {
-  Project next = workbench_.project();
-  next.view = view;
-  workbench_.edit(what, next);
+  workbench_.edit(what, [&](Project& next) { next.view = view; });
 }
 
 void ResistancePage::displayProject() {
@@ -142,7 +128,7 @@ void ResistancePage::displayProject() {
   law_->display(workbench_.project().design);
   const QSignalBlocker quietKind(kind_);
   const QSignalBlocker quietFixed(fixed_);
-  auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessKept));
+  auto* less = static_cast<QStandardItemModel*>(kind_->model())->item(static_cast<int>(ResistanceKind::LessReference));
   less->setEnabled(comparable());
   less->setText(workbench_.project().view.uniform ? tr("dR/R minus uniform load [%]")
                                                   : tr("dR/R minus reference design [%]"));
@@ -151,16 +137,16 @@ void ResistancePage::displayProject() {
                        : tr("There is no reference design with as many wires: Design, Compare, \"Set as reference\""));
   kind_->setCurrentIndex(static_cast<int>(kind()));
   fixed_->setChecked(view.resistanceRange.has_value());
-  const QSignalBlocker quietWay(currentWay_);
+  const QSignalBlocker quietWay(currentPaths_);
   const bool field = workbench_.project().design.field() != nullptr;
-  currentWay_->setEnabled(field);
-  currentWay_->setChecked(field && view.currentWay);
-  currentWay_->setToolTip(
+  currentPaths_->setEnabled(field);
+  currentPaths_->setChecked(field && view.currentPaths);
+  currentPaths_->setToolTip(
       field ? tr("Follows the current through the block while the selected cell is read: each line carries the same "
                  "current, and colours show the current density for 1 A driven into the row-wire")
             : tr("By Eq. (1) every pair of electrodes is an independent resistor, so there is no current field in the "
                  "rubber. Select the conduction field to see current paths."));
-  if (!(view == drawn_) || view.resistance == ResistanceKind::LessKept) draw(false);
+  if (!(view == drawn_) || view.resistance == ResistanceKind::LessReference) draw(false);
 }
 
 bool ResistancePage::comparable() const {
@@ -172,7 +158,7 @@ bool ResistancePage::comparable() const {
 
 ResistanceKind ResistancePage::kind() const {
   const ResistanceKind chosen = workbench_.project().view.resistance;
-  return chosen == ResistanceKind::LessKept && !comparable() ? ResistanceKind::RelativeChange : chosen;
+  return chosen == ResistanceKind::LessReference && !comparable() ? ResistanceKind::RelativeChange : chosen;
 }
 
 std::array<int, 2> ResistancePage::cell() const {
@@ -189,22 +175,16 @@ QWidget* ResistancePage::buildBar() {
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(0, 0, 0, 0);
-  kind_ = new QComboBox;
-  kind_->setObjectName("resistanceKind");
-  kind_->addItems(
-      {tr("R [ohm]"), tr("Change dR [ohm]"), tr("Relative change dR/R [%]"), tr("dR/R minus reference design [%]")});
-  kind_->setToolTip(
+  kind_ = choiceBox(
+      "resistanceKind",
+      {tr("R [ohm]"), tr("Change dR [ohm]"), tr("Relative change dR/R [%]"), tr("dR/R minus reference design [%]")},
       tr("Resistance between a row-wire and a column-wire by the law of the design; changes are relative to rest"));
-  fixed_ = new QCheckBox(tr("Fix colour scale"));
-  fixed_->setObjectName("fixedScale");
-  fixed_->setToolTip(tr("Keeps the range of the colours when the load changes"));
+  fixed_ = checkBox(tr("Fix colour scale"), "fixedScale", tr("Keeps the range of the colours when the load changes"));
   reading_ = new QLabel;
   reading_->setToolTip(
       tr("Resistance of the cell under the pointer, otherwise of the selected cell; click on a cell to select it"));
   reading_->setObjectName("reading");
-  row->addWidget(new QLabel(tr("Show")));
-  row->addWidget(kind_);
-  row->addWidget(fixed_);
+  addTo(*row, {new QLabel(tr("Show")), kind_, fixed_});
   row->addSpacing(20);
   row->addWidget(reading_, 1);
   return bar;
@@ -221,7 +201,8 @@ void ResistancePage::setTheme(Theme theme) {
 }
 
 bool ResistancePage::complete() const {
-  const bool compared = kind() != ResistanceKind::LessKept || workbench_.keptResistances() || !keptProblem().isEmpty();
+  const bool compared =
+      kind() != ResistanceKind::LessReference || workbench_.referenceResistances() || !referenceProblem().isEmpty();
   const bool resistances = resistances_ || !workbench_.field().problem().isEmpty();
   const bool followed = !wayShown() || current_.lines() != nullptr || !current_.problem().isEmpty();
   return workbench_.touch().electrodes() != nullptr && workbench_.touch().upToDate() && compared && resistances &&
@@ -231,7 +212,7 @@ bool ResistancePage::complete() const {
 void ResistancePage::showEvent(QShowEvent* event) {
   Scene::showEvent(event);
   workbench_.field().retry();
-  workbench_.keptField().retry();
+  workbench_.referenceField().retry();
   draw(!meshDrawn_);
 }
 
@@ -245,7 +226,7 @@ void ResistancePage::draw(bool meshChanged) {
   if (!isVisible() || workbench_.touch().electrodes() == nullptr) return;
   drawn_ = workbench_.project().view;
   findResistances();
-  if (kind() == ResistanceKind::LessKept) workbench_.needKeptResistances();
+  if (kind() == ResistanceKind::LessReference) workbench_.needReferenceResistances();
   drawHeatmap();
   drawBeside();
   drawCurves();
@@ -266,12 +247,12 @@ void ResistancePage::displayWords(const std::array<int, 2>& cell) {
 }
 
 bool ResistancePage::wayShown() const {
-  return workbench_.project().view.currentWay && workbench_.touch().touch().design().field() != nullptr;
+  return workbench_.project().view.currentPaths && workbench_.touch().touch().design().field() != nullptr;
 }
 
-QString ResistancePage::keptProblem() const {
+QString ResistancePage::referenceProblem() const {
   if (!workbench_.kept().problem().isEmpty()) return workbench_.kept().problem();
-  return workbench_.keptPath() != nullptr ? workbench_.keptField().problem() : QString();
+  return workbench_.referencePath() != nullptr ? workbench_.referenceField().problem() : QString();
 }
 
 void ResistancePage::findResistances() {
@@ -281,7 +262,7 @@ void ResistancePage::findResistances() {
 
 void ResistancePage::drawBeside() {
   SensorDesign design = workbench_.touch().touch().design();
-  const bool beside = design.field() != nullptr && resistances_ && kind() != ResistanceKind::LessKept;
+  const bool beside = design.field() != nullptr && resistances_ && kind() != ResistanceKind::LessReference;
   pairs_->setVisible(beside);
   laws_->setVisible(beside);
   if (!beside) return;
@@ -297,14 +278,15 @@ void ResistancePage::drawBeside() {
 HeatmapSpec ResistancePage::heatmap() const {
   if (!resistances_) return noResistancesYet(workbench_.field().problem());
   HeatmapSpec shown = resistanceHeatmap(*resistances_, kind());
-  if (kind() != ResistanceKind::LessKept) {
+  if (kind() != ResistanceKind::LessReference) {
     if (const auto end = workbench_.resistancesAtEnd(); end && shown.values.size() > 0)
-      shown.colors = resistanceHeatmap(*end, kind()).colors; // one scale on the whole load path
+      shown.colors = resistanceHeatmap(*end, kind()).colors; // one scale on the complete load path
     return shown;
   }
   HeatmapSpec none;
-  none.title = (keptProblem().isEmpty() ? tr("The comparison is being computed...") : keptProblem()).toStdString();
-  const auto kept = workbench_.keptResistances();
+  none.title =
+      (referenceProblem().isEmpty() ? tr("The comparison is being computed...") : referenceProblem()).toStdString();
+  const auto kept = workbench_.referenceResistances();
   if (!kept) return none;
   const HeatmapSpec less = resistanceHeatmap(*kept, kind());
   const bool alike = less.values.rows() == shown.values.rows() && less.values.cols() == shown.values.cols();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/gui/project/Workbench.h"
-#include "app/gui/touch/CurrentWay.h"
+#include "app/gui/touch/CurrentPathsJob.h"
 #include "app/gui/window/Scene.h"
 #include "app/scenes/block/DeformationScene.h"
 #include "app/scenes/charts/Heatmap.h"
@@ -18,7 +18,7 @@ class HeatmapView;
 class LawBar;
 
 /// Row-column resistances under the load by the law of the design: a heatmap, under the field with that of Eq. (1)
-/// beside it, the row and the column of a cell as curves, its electrodes lit.
+/// next to it, the row and the column of a cell as curves, its electrodes highlighted.
 class ResistancePage : public Scene {
   Q_OBJECT
 
@@ -50,10 +50,10 @@ private:
   /// As chosen, where that can be shown.
   [[nodiscard]] ResistanceKind kind() const;
   [[nodiscard]] HeatmapSpec heatmap() const;
-  /// The block shows the current's way.
+  /// The block shows the current paths.
   [[nodiscard]] bool wayShown() const;
-  /// Why there is nothing of the kept design; empty where there is, or while it is computed.
-  [[nodiscard]] QString keptProblem() const;
+  /// Why there is no result of the reference design; empty where there is, or while it is computed.
+  [[nodiscard]] QString referenceProblem() const;
   /// Of the touch that is shown, by its law; asks for the field where it is not there yet.
   void findResistances();
   /// How those of the field compare with those of Eq. (1).
@@ -63,19 +63,19 @@ private:
 
   Workbench& workbench_;
   DeformationOptions options_;
-  CurrentWay current_;
+  CurrentPathsJob current_;
   std::optional<TouchResistances> resistances_; ///< that are shown
   bool meshDrawn_ = false;
   ViewSettings drawn_; ///< as drawn last
   LawBar* law_ = nullptr;
   QComboBox* kind_ = nullptr;
   QCheckBox* fixed_ = nullptr;
-  QCheckBox* currentWay_ = nullptr;
+  QCheckBox* currentPaths_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* laws_ = nullptr;
   QLabel* paths_ = nullptr;
   HeatmapView* heatmap_ = nullptr;
-  HeatmapView* pairs_ = nullptr; ///< by Eq. (1), beside the field
+  HeatmapView* pairs_ = nullptr; ///< by Eq. (1), next to those by the field
   ChartView* row_ = nullptr;
   ChartView* column_ = nullptr;
   BlockView* block_ = nullptr;

@@ -1,9 +1,10 @@
 #include "app/gui/touch/ResultPanel.h"
 
-#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/MatchedLoad.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/gui/jobs/TouchSession.h"
 #include "app/gui/project/Project.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 
 #include <QLabel>
@@ -58,15 +59,13 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
   lines->setContentsMargins(0, 0, 0, 0);
   result_ = markupLabel(tr("Not computed yet."));
   result_->setObjectName("result");
-  estimate_ = new QPushButton(tr("Estimate the discretisation error"));
-  estimate_->setObjectName("estimate");
-  estimate_->setToolTip(tr("Solves again on a coarser mesh and compares the displacements of the electrodes"));
-  uniform_ = new QPushButton(tr("Compare with uniform load"));
-  uniform_->setObjectName("compareUniform");
-  uniform_->setCheckable(true);
-  uniform_->setToolTip(
+  estimate_ = pushButton(tr("Estimate the discretisation error"), "estimate",
+                         tr("Solves again on a coarser mesh and compares the displacements of the electrodes"));
+  uniform_ = pushButton(
+      tr("Compare with uniform load"), "compareUniform",
       tr("Colours the block by the difference between this touch and the same force spread uniformly over the load "
          "area beneath it, as in the paper; the Resistance scene shows the same comparison"));
+  uniform_->setCheckable(true);
   uniform_->hide();
   probe_ = markupLabel();
   probe_->setObjectName("probe");
@@ -77,13 +76,9 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent) {
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
-  lines->addWidget(difference_);
-  lines->addWidget(result_);
-  lines->addWidget(estimate_);
-  lines->addWidget(uniform_);
-  lines->addWidget(probe_);
-  connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformAsked);
-  connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateAsked);
+  addTo(*lines, {difference_, result_, estimate_, uniform_, probe_});
+  connect(uniform_, &QPushButton::clicked, this, &ResultPanel::uniformRequested);
+  connect(estimate_, &QPushButton::clicked, this, &ResultPanel::estimateRequested);
 }
 
 void ResultPanel::display(const TouchSession& session) {
@@ -128,13 +123,13 @@ void ResultPanel::display(const TouchSession& session) {
   fitHeight(*result_);
 }
 
-void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
+void ResultPanel::displayDifference(const Project& project, const TouchSession& session, const ReferencePath* kept,
                                     const QString& problem) {
   const bool uniform = project.view.uniform, pressed = !project.load.indenters.empty();
   const bool shown =
-      project.view.lessKept && (uniform ? pressed : project.kept.has_value()) && session.fields() != nullptr;
+      project.view.lessReference && (uniform ? pressed : project.kept.has_value()) && session.fields() != nullptr;
   uniform_->setVisible(pressed);
-  uniform_->setChecked(uniform && project.view.lessKept);
+  uniform_->setChecked(uniform && project.view.lessReference);
   difference_->setVisible(shown);
   if (!shown) return;
   const QString title = uniform ? tr("Difference from uniform load") : tr("Difference from the reference design");
@@ -162,7 +157,7 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
   fitHeight(*difference_);
 }
 
-void ResultPanel::displayProbe(const TouchSession& session, int node, const KeptPath* kept) {
+void ResultPanel::displayProbe(const TouchSession& session, int node, const ReferencePath* kept) {
   if (node < 0) {
     probe_->setText(tr("Click on the block to probe a point."));
     return;

@@ -8,10 +8,10 @@ class QPushButton;
 namespace palp {
 
 class TouchSession;
-struct KeptPath;
+struct ReferencePath;
 struct Project;
 
-/// What came out of the solve in words, the estimate of its error, and the probed point.
+/// The results of the solve as text, the estimate of its error, and the probed point.
 class ResultPanel : public QWidget {
   Q_OBJECT
 
@@ -19,19 +19,19 @@ public:
   explicit ResultPanel(QWidget* parent = nullptr);
 
   void display(const TouchSession& session);
-  /// The estimate of the discretisation error in words; empty: not estimated.
+  /// The estimate of the discretisation error as text; empty: not estimated.
   void setErrorWords(const QString& words) { errorWords_ = words; }
   /// Displacement, pressure and stress at a mesh node; -1: none.
-  void displayProbe(const TouchSession& session, int node, const KeptPath* kept);
-  /// By how much the shown quantity differs most from that of the kept design, or why that is not known; nothing where
-  /// it is not shown.
-  void displayDifference(const Project& project, const TouchSession& session, const KeptPath* kept,
+  void displayProbe(const TouchSession& session, int node, const ReferencePath* kept);
+  /// The largest difference of the shown quantity from that of the reference design, or why it is unknown; nothing
+  /// where it is not shown.
+  void displayDifference(const Project& project, const TouchSession& session, const ReferencePath* kept,
                          const QString& problem);
 
 signals:
-  void estimateAsked();
+  void estimateRequested();
   /// The touch is to be compared with the same force uniform, or not any more.
-  void uniformAsked(bool on);
+  void uniformRequested(bool on);
 
 private:
   QLabel* result_ = nullptr;

@@ -7,6 +7,7 @@
 #include "app/gui/views/ChartView.h"
 #include "app/gui/views/HeatmapSpecs.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/gui/widgets/UnclearComma.h"
 
@@ -101,9 +102,7 @@ QWidget* TouchTabs::buildRowWire() {
   row->setContentsMargins(4, 4, 4, 4);
   auto* side = new QVBoxLayout;
   side->addWidget(new QLabel(tr("Row-wire")));
-  rowWireNumber_ = new WholeBox;
-  rowWireNumber_->setObjectName("rowWireNumber");
-  rowWireNumber_->setToolTip(tr("Row-wires count from 0, along y"));
+  rowWireNumber_ = wholeBox("rowWireNumber", {.whileTyping = true}, tr("Row-wires count from 0, along y"));
   side->addWidget(rowWireNumber_);
   side->addStretch(1);
   row->addLayout(side);
@@ -129,10 +128,8 @@ QWidget* TouchTabs::buildLine() {
   constexpr std::array<const char*, 2> kNames{"lineFrom", "lineTo"};
   for (std::size_t k = 0; k < 2; ++k) {
     side->addWidget(new QLabel(k == 0 ? tr("From x, y, z [mm]") : tr("To x, y, z [mm]")));
-    ends_[k] = new QLineEdit;
-    ends_[k]->setObjectName(kNames[k]);
+    ends_[k] = lineEdit(kNames[k], tr("End of the line at rest; the tool Line sets both ends by clicks on the block"));
     ends_[k]->setMaximumWidth(150);
-    ends_[k]->setToolTip(tr("End of the line at rest; the tool Line sets both ends by clicks on the block"));
     side->addWidget(ends_[k]);
     connect(ends_[k], &QLineEdit::editingFinished, this, &TouchTabs::readLine);
   }
@@ -193,7 +190,7 @@ void TouchTabs::displayProject(const Project& project) {
   draw();
 }
 
-void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept) {
+void TouchTabs::displayTouch(bool meshChanged, std::shared_ptr<const ReferencePath> kept) {
   if (meshChanged) plot_.reset();
   kept_ = std::move(kept);
   draw();

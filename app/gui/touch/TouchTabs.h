@@ -15,7 +15,7 @@ class ElectrodeTable;
 class HeatmapView;
 class TouchSession;
 class Workbench;
-struct KeptPath;
+struct ReferencePath;
 
 /// Under the block: heatmap and Newton's residuals, a row-wire before and under the load, a plot along a line, the
 /// electrodes as a table, reaction and displacement along the load. Only the visible tab is drawn.
@@ -27,8 +27,8 @@ public:
 
   void setTheme(Theme theme);
   void displayProject(const Project& project);
-  /// `kept`: the design that is shown beside it; null: none.
-  void displayTouch(bool meshChanged, std::shared_ptr<const KeptPath> kept);
+  /// `kept`: the design that it is compared with; null: none.
+  void displayTouch(bool meshChanged, std::shared_ptr<const ReferencePath> kept);
   void drawNewton();
   /// Shows the plot along the line.
   void showLine();
@@ -60,7 +60,7 @@ private:
   ViewSettings view_;
   std::vector<NewtonStep> drawnSteps_;
   LinePlot plot_;
-  std::shared_ptr<const KeptPath> kept_;
+  std::shared_ptr<const ReferencePath> kept_;
   HeatmapView* heatmap_ = nullptr;
   ChartView* newton_ = nullptr;
   ChartView* rowWire_ = nullptr;

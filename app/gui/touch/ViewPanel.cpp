@@ -1,17 +1,14 @@
 #include "app/gui/touch/ViewPanel.h"
 
-#include "app/gui/widgets/SpinBoxes.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QSignalBlocker>
 #include <QStandardItemModel>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palp {
 
@@ -19,42 +16,36 @@ namespace {
 
 constexpr int kNarrow_px = 56; ///< of a number: a box asks for as much as its largest one
 
-QCheckBox* box(QFormLayout& form, const QString& text, const char* name, bool on, const QString& tip) {
-  auto* check = new QCheckBox(text);
-  check->setObjectName(name);
-  check->setChecked(on);
-  check->setToolTip(tip);
-  form.addRow(check);
-  return check;
-}
-
 } // namespace
 
-ViewPanel::ViewPanel(QWidget* parent) : QWidget(parent) {
+ViewPanel::ViewPanel(QWidget* parent)
+    : QWidget(parent), fields_([this](const QString& /*what*/, const ViewSettings& view) { emit edited(view); }) {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
   buildColors(*form);
-  lessKept_ = box(*form, tr("Difference from reference design"), "lessKept", false, {});
-  buildWarp(*form);
+  lessReference_ = checkBox(tr("Difference from reference design"), "lessKept");
+  form->addRow(lessReference_);
+  buildScale(*form);
   buildCut(*form);
-  extremes_ =
-      box(*form, tr("Largest and smallest value"), "extremes", false,
-          tr("Marks the positions of the largest and the smallest value; in a cut block, those of the visible part"));
-  ghost_ = box(*form, tr("Block at rest"), "ghost", true, tr("Shows the edges of the undeformed block"));
-  electrodes_ = box(*form, tr("Electrodes and wires"), "electrodes", true,
-                    tr("Makes the rubber transparent to show the electrodes and wires"));
-  arrows_ =
-      box(*form, tr("Force arrows"), "arrows", true, tr("Shows the forces of the loads with their components in N"));
-  outlines_ = box(*form, tr("Load areas"), "outlines", true, tr("Shows borders and numbers of the load areas"));
-  edges_ = box(*form, tr("Mesh"), "edges", false, tr("Shows the edges of the finite elements"));
+  const auto addCheck = [&](const QString& text, const char* name, bool ViewSettings::*shown, const QString& tip) {
+    form->addRow(fields_.bind(checkBox(text, name, tip), {}, shown));
+  };
+  addCheck(tr("Largest and smallest value"), "extremes", &ViewSettings::extremes,
+           tr("Marks the positions of the largest and the smallest value; in a cut block, those of the visible part"));
+  addCheck(tr("Block at rest"), "ghost", &ViewSettings::ghost, tr("Shows the edges of the undeformed block"));
+  addCheck(tr("Electrodes and wires"), "electrodes", &ViewSettings::electrodes,
+           tr("Makes the rubber transparent to show the electrodes and wires"));
+  addCheck(tr("Force arrows"), "arrows", &ViewSettings::arrows,
+           tr("Shows the forces of the loads with their components in N"));
+  addCheck(tr("Load areas"), "outlines", &ViewSettings::outlines, tr("Shows borders and numbers of the load areas"));
+  addCheck(tr("Mesh"), "edges", &ViewSettings::edges, tr("Shows the edges of the finite elements"));
 
   connect(quantity_, &QComboBox::currentIndexChanged, this, &ViewPanel::chooseQuantity);
   for (QComboBox* list : {colorMap_, cut_}) connect(list, &QComboBox::currentIndexChanged, this, &ViewPanel::read);
   for (QDoubleSpinBox* spin : {warp_, cutAt_, range_[0], range_[1]})
     connect(spin, &QDoubleSpinBox::valueChanged, this, &ViewPanel::read);
-  connect(lessKept_, &QCheckBox::toggled, this, &ViewPanel::chooseKept);
-  for (QCheckBox* check : {automaticWarp_, keepRange_, extremes_, ghost_, electrodes_, arrows_, outlines_, edges_})
-    connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
+  connect(lessReference_, &QCheckBox::toggled, this, &ViewPanel::chooseKept);
+  for (QCheckBox* check : {automaticScale_, keepRange_}) connect(check, &QCheckBox::toggled, this, &ViewPanel::read);
 }
 
 void ViewPanel::buildColors(QFormLayout& form) {
@@ -79,72 +70,46 @@ void ViewPanel::buildColors(QFormLayout& form) {
   form.addRow(tr("Colours"), colorMap_);
   auto* row = new QHBoxLayout;
   for (std::size_t k = 0; k < 2; ++k) {
-    range_[k] = new NumberBox;
-    range_[k]->setObjectName(k == 0 ? "rangeFrom" : "rangeTo");
-    range_[k]->setAccessibleName(k == 0 ? tr("Legend from") : tr("Legend to"));
-    range_[k]->setToolTip(tr("Values at the ends of the legend; values beyond have the colour of the end"));
-    range_[k]->setDecimals(4);
-    range_[k]->setRange(-1e6, 1e6);
-    range_[k]->setSingleStep(0.01);
+    range_[k] = numberBox(k == 0 ? "rangeFrom" : "rangeTo", {.low = -1e6, .high = 1e6, .decimals = 4, .step = 0.01},
+                          tr("Values at the ends of the legend; values beyond have the colour of the end"),
+                          k == 0 ? tr("Legend from") : tr("Legend to"));
     range_[k]->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    range_[k]->setKeyboardTracking(false);
     range_[k]->setEnabled(false);
     range_[k]->setMinimumWidth(kNarrow_px);
     row->addWidget(range_[k], 1);
   }
-  keepRange_ = new QCheckBox(tr("Fix range"));
-  keepRange_->setObjectName("keepRange");
-  keepRange_->setToolTip(tr("Keeps the range of the legend when the load changes; otherwise it fits the full load"));
+  keepRange_ = checkBox(tr("Fix range"), "keepRange",
+                        tr("Keeps the range of the legend when the load changes; otherwise it fits the full load"));
   form.addRow(tr("Legend"), row);
   form.addRow(QString(), keepRange_);
 }
 
-void ViewPanel::buildWarp(QFormLayout& form) {
-  warp_ = new NumberBox;
-  warp_->setObjectName("warp");
-  warp_->setRange(0, 1e6);
-  warp_->setDecimals(1);
+void ViewPanel::buildScale(QFormLayout& form) {
+  warp_ = numberBox("warp", {.high = 1e6, .decimals = 1},
+                    tr("Factor by which displacements are drawn enlarged; 1 is true size"));
   warp_->setPrefix(tr("x "));
   warp_->setEnabled(false);
   warp_->setMinimumWidth(kNarrow_px);
-  warp_->setKeyboardTracking(false);
-  warp_->setToolTip(tr("Factor by which displacements are drawn enlarged; 1 is true size"));
-  automaticWarp_ = new QCheckBox(tr("Automatic"));
-  automaticWarp_->setObjectName("automaticWarp");
-  automaticWarp_->setChecked(true);
-  auto* row = new QHBoxLayout;
-  row->addWidget(warp_);
-  row->addWidget(automaticWarp_);
+  automaticScale_ = checkBox(tr("Automatic"), "automaticWarp");
+  automaticScale_->setChecked(true);
+  auto* row = inRow({warp_, automaticScale_});
   form.addRow(new QLabel(tr("Deformation scale"))); // above its row: at its left it would narrow all of them
   form.addRow(QString(), row);
 }
 
 void ViewPanel::buildCut(QFormLayout& form) {
-  cut_ = new QComboBox;
-  cut_->setObjectName("cut");
-  cut_->addItems({tr("None"), tr("Across x"), tr("Across y"), tr("Across z")});
-  cut_->setToolTip(tr("Clips the block at a plane to show its inside. Drag the handle in the view to move it."));
-  cutAt_ = new NumberBox;
-  cutAt_->setObjectName("cutAt");
-  cutAt_->setAccessibleName(tr("Position of the cut"));
-  cutAt_->setSuffix(tr(" mm"));
-  cutAt_->setKeyboardTracking(false);
-  cutAt_->setToolTip(tr("Position of the cut [mm]"));
+  cut_ = choiceBox("cut", {tr("None"), tr("Across x"), tr("Across y"), tr("Across z")},
+                   tr("Clips the block at a plane to show its inside. Drag the handle in the view to move it."));
+  cutAt_ = numberBox("cutAt", {.unit = tr(" mm")}, tr("Position of the cut [mm]"), tr("Position of the cut"));
   cutAt_->setEnabled(false);
   cutAt_->setMinimumWidth(kNarrow_px);
-  auto* row = new QHBoxLayout;
-  row->addWidget(cut_, 1);
-  row->addWidget(cutAt_, 1);
-  form.addRow(tr("Cut"), row);
+  form.addRow(tr("Cut"), inRow({{cut_, 1}, {cutAt_, 1}}));
 }
 
 void ViewPanel::chooseQuantity() {
   if (displaying_) return;
   const Quantity next = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
-  // A range in mm means nothing for MPa.
-  if (quantityUnit(next) != quantityUnit(view_.quantity)) {
-    view_.colorRange.reset();
-    view_.differenceRange.reset();
+  if (quantityUnit(next) != quantityUnit(fields_.settings().quantity)) { // a range in mm means nothing for MPa
     const QSignalBlocker quiet(keepRange_);
     keepRange_->setChecked(false);
   }
@@ -153,46 +118,48 @@ void ViewPanel::chooseQuantity() {
 
 void ViewPanel::chooseKept() {
   if (displaying_) return;
-  ViewSettings next = view_; // the range of a quantity means little for a difference: each has its own
-  next.lessKept = lessKept_->isChecked();
-  if (next.lessKept) next.uniform = false;
-  emit edited(next);
+  fields_.edit({}, [this](ViewSettings& view) { // a quantity and its difference have a range each
+    view.lessReference = lessReference_->isChecked();
+    if (view.lessReference) view.uniform = false;
+  });
 }
 
 void ViewPanel::read() {
-  warp_->setDisabled(automaticWarp_->isChecked());
+  warp_->setDisabled(automaticScale_->isChecked());
   cutAt_->setEnabled(cut_->currentIndex() > 0);
   for (QDoubleSpinBox* end : range_) end->setEnabled(keepRange_->isChecked());
-  if (displaying_) return;
-  view_.quantity = allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())];
-  view_.colorMap.reset();
+  if (!displaying_) fields_.edit({}, [this](ViewSettings& view) { readInto(view); });
+}
+
+void ViewPanel::readInto(ViewSettings& view) const {
+  const Quantity before =
+      std::exchange(view.quantity, allQuantities()[static_cast<std::size_t>(quantity_->currentIndex())]);
+  if (quantityUnit(before) != quantityUnit(view.quantity)) {
+    view.colorRange.reset();
+    view.differenceRange.reset();
+  }
+  view.colorMap.reset();
   if (const int map = colorMap_->currentIndex(); map > 0)
-    view_.colorMap = kColorMaps.all()[static_cast<std::size_t>(map - 1)].first;
-  view_.shownRange().reset();
+    view.colorMap = kColorMaps.all()[static_cast<std::size_t>(map - 1)].first;
+  view.shownRange().reset();
   if (keepRange_->isChecked()) {
     const double low = range_[0]->value(), high = range_[1]->value();
-    view_.shownRange() = {low, std::max(high, low + 1e-4)};
+    view.shownRange() = {low, std::max(high, low + 1e-4)};
   }
-  view_.warpFactor = automaticWarp_->isChecked() ? std::nullopt : std::optional(warp_->value());
+  view.deformationScale = automaticScale_->isChecked() ? std::nullopt : std::optional(warp_->value());
   if (const int axis = cut_->currentIndex() - 1; axis < 0) {
-    view_.cut.reset();
+    view.cut.reset();
   } else {
-    const bool other = !view_.cut || view_.cut->axis != axis; // begins in the middle
-    view_.cut = CutPlane{axis, other ? 0.5 * block_mm_[axis] : cutAt_->value()};
+    const bool other = !view.cut || view.cut->axis != axis; // begins in the middle
+    view.cut = CutPlane{axis, other ? 0.5 * block_mm_[axis] : cutAt_->value()};
   }
-  view_.extremes = extremes_->isChecked();
-  view_.ghost = ghost_->isChecked();
-  view_.electrodes = electrodes_->isChecked();
-  view_.arrows = arrows_->isChecked();
-  view_.outlines = outlines_->isChecked();
-  view_.edges = edges_->isChecked();
-  emit edited(view_);
 }
 
 void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_mm, bool somethingKept, bool pressed) {
   displaying_ = true;
-  view_ = view;
-  view_.lessKept = view.lessKept && (view.uniform ? pressed : somethingKept);
+  ViewSettings possible = view;
+  possible.lessReference = view.lessReference && (view.uniform ? pressed : somethingKept);
+  fields_.display(possible);
   block_mm_ = block_mm;
   const auto& all = allQuantities();
   quantity_->setCurrentIndex(static_cast<int>(std::find(all.begin(), all.end(), view.quantity) - all.begin()));
@@ -205,37 +172,31 @@ void ViewPanel::display(const ViewSettings& view, const Eigen::Vector3d& block_m
   for (std::size_t k = 0; k < kColorMaps.all().size(); ++k)
     if (view.colorMap == kColorMaps.all()[k].first) map = static_cast<int>(k) + 1;
   colorMap_->setCurrentIndex(map);
-  lessKept_->setEnabled(somethingKept);
-  lessKept_->setChecked(view.lessKept && somethingKept && !view.uniform);
-  lessKept_->setToolTip(
+  lessReference_->setEnabled(somethingKept);
+  lessReference_->setChecked(view.lessReference && somethingKept && !view.uniform);
+  lessReference_->setToolTip(
       somethingKept
           ? tr("Colours the block by the difference from the reference design under the same load, point by point")
           : tr("There is no reference design to compare with: Design, Compare, \"Set as reference\""));
-  const auto& range = view_.shownRange();
+  const auto& range = possible.shownRange();
   keepRange_->setChecked(range.has_value());
   if (range)
     for (std::size_t k = 0; k < 2; ++k) showExactly(*range_[k], (*range)[k]);
-  automaticWarp_->setChecked(!view.warpFactor);
-  if (view.warpFactor) showExactly(*warp_, *view.warpFactor);
+  automaticScale_->setChecked(!view.deformationScale);
+  if (view.deformationScale) showExactly(*warp_, *view.deformationScale);
   cut_->setCurrentIndex(view.cut ? view.cut->axis + 1 : 0);
   if (view.cut) {
     cutAt_->setRange(0, block_mm[view.cut->axis]);
     showExactly(*cutAt_, view.cut->at_mm);
   }
-  extremes_->setChecked(view.extremes);
-  ghost_->setChecked(view.ghost);
-  electrodes_->setChecked(view.electrodes);
-  arrows_->setChecked(view.arrows);
-  outlines_->setChecked(view.outlines);
-  edges_->setChecked(view.edges);
   read();
   displaying_ = false;
 }
 
-void ViewPanel::displayDrawn(double warpFactor, const std::array<double, 2>& range) {
-  if (automaticWarp_->isChecked()) {
+void ViewPanel::displayDrawn(double deformationScale, const std::array<double, 2>& range) {
+  if (automaticScale_->isChecked()) {
     const QSignalBlocker quiet(warp_);
-    warp_->setValue(warpFactor);
+    warp_->setValue(deformationScale);
   }
   if (keepRange_->isChecked()) return;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -55,7 +55,7 @@ BlockView::BlockView(std::unique_ptr<Parts> parts, QWidget* parent)
   connect(this, &VtkView::clicked, this, &BlockView::pick);
   connect(this, &VtkView::doubleClicked, this, &BlockView::resetCamera);
   connect(this, &VtkView::sizeChanged, this, [this] {
-    // A panel beside the view opened or closed: all of the block stays in sight, unless the user looks elsewhere.
+    // A panel next to the view opened or closed: all of the block stays in sight, unless the user looks elsewhere.
     if (renderCount() == 0)
       resetCamera();
     else if (parts_->camera() == parts_->fitted)
@@ -101,8 +101,8 @@ void BlockView::lookAlong(const Eigen::Vector3d& direction) {
   invalidate();
 }
 
-double BlockView::warpFactor() const {
-  return parts_->scene.warpFactor();
+double BlockView::deformationScale() const {
+  return parts_->scene.deformationScale();
 }
 
 std::array<double, 2> BlockView::colorRange() const {

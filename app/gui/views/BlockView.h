@@ -25,7 +25,7 @@ public:
   void setTheme(Theme theme);
   /// Looks along a direction, z up, or y where that is straight down or up.
   void lookAlong(const Eigen::Vector3d& direction);
-  [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] double deformationScale() const;
   [[nodiscard]] std::array<double, 2> colorRange() const;
   [[nodiscard]] std::array<double, 3> cameraPosition() const;
   [[nodiscard]] vtkCamera* camera() const;
@@ -44,7 +44,7 @@ public:
   void setMovable(Movable what) { handles_ = what; }
   /// The cross of the keys; none before one of them was pressed.
   [[nodiscard]] std::optional<QPointF> cross() const { return cross_; }
-  /// What the ball under a place of the widget stands for; empty where it says so itself, or there is none.
+  /// What the ball at a position of the widget marks; empty where its label is shown, or there is none.
   [[nodiscard]] QString tipAt(const QPointF& place) const;
 
 signals:
@@ -52,13 +52,13 @@ signals:
   void nodeClicked(int node);
   /// The same click: where the material under it lies at rest.
   void materialClicked(const Eigen::Vector3d& rest_mm);
-  /// The free end of an arrow was dragged and let go: the force as drawn, which is the load's at the load fraction.
+  /// The free end of an arrow was dragged and released: the force as drawn, which is the load's at the load fraction.
   void forceDragged(int load, const Eigen::Vector3d& drawn_N);
   /// The cut is being dragged and lies here now.
   void cutDragged(double at_mm);
-  /// A disc was taken by the mouse and let go, there or elsewhere.
+  /// A disc was dragged by the mouse and released, there or elsewhere.
   void discDragged(int disc, const palp::PatchLoad& to);
-  /// A way was drawn over the top face from where this indenter stands: by Ctrl and the left button.
+  /// A path was drawn over the top face from this indenter's position: by Ctrl and the left button.
   void wayDrawn(int indenter, const Eigen::Matrix2Xd& way_mm);
   /// The same of an indenter: its place, or its radius. What was not dragged may be another by now than is shown.
   void indenterMoved(int indenter, const Eigen::Vector2d& place_mm);
@@ -93,13 +93,13 @@ private:
   [[nodiscard]] std::vector<QPointF> grips() const;
   /// The point of the plane through `anchor`, parallel to the view, that is drawn at a place of the widget.
   [[nodiscard]] Eigen::Vector3d pointAt(const QPointF& place, const Eigen::Vector3d& anchor_mm) const;
-  /// Where the line of sight through a place of the widget meets the top face's plane at rest; none beside it.
+  /// Where the line of sight through a position of the widget meets the top face's plane at rest; nullopt outside it.
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace_mm(const QPointF& place) const;
   void showCursor(const QPointF& place);
   [[nodiscard]] bool cutAt(const QPointF& place) const;
   void dragCut(const QPointF& place);
   void moveHandle(const PatchLoad& to);
-  /// Begins a way where an indenter stands; false beside them.
+  /// Begins a path at an indenter; false elsewhere.
   bool beginWay(const Eigen::Vector2d& at_mm);
   void drawWay(const Eigen::Vector2d& at_mm);
   /// The arrow whose free half lies under the place; -1 where none does.

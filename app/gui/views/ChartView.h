@@ -32,9 +32,9 @@ public:
   struct Point {
     std::size_t series = 0, at = 0;
   };
-  /// The one that is read, in words; empty: none.
+  /// The one that is read, as text; empty: none.
   [[nodiscard]] QString reading() const;
-  /// Where a point was drawn; none beside the axes.
+  /// Where a point was drawn; nullopt outside the axes.
   [[nodiscard]] std::optional<QPointF> placeOf(const Point& point) const;
 
 protected:

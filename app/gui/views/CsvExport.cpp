@@ -2,9 +2,9 @@
 
 #include "app/gui/widgets/FileDialogs.h"
 #include "app/gui/window/Scene.h"
+#include "app/study/reports/Csv.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
-#include "model/base/Text.h"
 
 #include <QMessageBox>
 
@@ -13,24 +13,20 @@
 namespace palp {
 
 QString csvCell(const QString& text) {
-  if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) return text;
-  QString inner = text;
-  return '"' + inner.replace('"', "\"\"") + '"';
+  return QString::fromStdString(CsvCell(text.toStdString()).text());
 }
 
 QString chartCsv(const ChartSpec& spec) {
-  const auto cell = [](const std::string& text) { return csvCell(QString::fromStdString(text)); };
-  QString csv = "series," + cell(spec.xLabel) + "," + cell(spec.yLabel) + "\n";
+  Csv csv({"series", spec.xLabel, spec.yLabel});
   for (const ChartSeries& series : spec.series) {
     if (series.level && !series.y.empty()) {
-      csv += cell(series.name) + ",," + QString::fromStdString(text(series.y.front())) + "\n";
+      csv.add({series.name, "", series.y.front()});
       continue;
     }
     for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
-      csv += cell(series.name) + "," + QString::fromStdString(text(series.x[k])) + "," +
-             QString::fromStdString(text(series.y[k])) + "\n";
+      csv.add({series.name, series.x[k], series.y[k]});
   }
-  return csv;
+  return QString::fromStdString(csv.text());
 }
 
 QString sourceOf(const QWidget& widget) {
@@ -46,7 +42,7 @@ QString offerCsv(QWidget* parent, const QString& proposal, const QString& text) 
   const QString file = askFileToSave(parent, QObject::tr("Save as CSV"), proposal, QObject::tr("Tables (*.csv)"));
   if (file.isEmpty()) return {};
   try {
-    writeFile(file.toStdString(), (sourceOf(*parent) + text).toStdString(), true); // the dialog has asked
+    writeFile(file.toStdString(), (sourceOf(*parent) + text).toStdString(), true); // confirmed in the dialog
     return file;
   } catch (const Error& error) {
     QMessageBox::warning(parent, QObject::tr("Save as CSV"), QString::fromStdString(error.what()));

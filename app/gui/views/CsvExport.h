@@ -15,7 +15,7 @@ QString csvCell(const QString& text);
 QString chartCsv(const ChartSpec& spec);
 /// Lines after "#" that say what this chart or table of a scene was made with; empty outside of a scene.
 QString sourceOf(const QWidget& widget);
-/// Asks for a file and writes the table there, below what it was made with; says why where it cannot be written.
+/// Asks for a file and writes the table there, below what it was made with; reports why where it cannot be written.
 /// Returns the file that was written.
 QString offerCsv(QWidget* parent, const QString& proposal, const QString& text);
 

@@ -19,7 +19,7 @@ public:
   void show(const QStringList& heads, const std::vector<QStringList>& rows);
   /// Bold; the row is one of show().
   void mark(int dataRow);
-  /// Which row of show() stands in a row of the table, and the other way round; -1 for -1.
+  /// Which row of show() is in a row of the table, and the inverse; -1 for -1.
   [[nodiscard]] int dataRow(int shownRow) const;
   [[nodiscard]] int shownRow(int dataRow) const;
   /// The name that is proposed for the CSV.
@@ -42,7 +42,7 @@ private:
   void sortBy(int column);
 
   QString file_;
-  int sortColumn_ = -1; ///< -1: the rows stand as show() gave them
+  int sortColumn_ = -1; ///< -1: the rows are in the order of show()
   Qt::SortOrder sortOrder_ = Qt::AscendingOrder;
 };
 

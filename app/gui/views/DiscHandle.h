@@ -11,7 +11,7 @@ constexpr double kSmallestDisc_mm = 0.1;
 /// The disc nearest to this one that lies wholly on the top face.
 PatchLoad insideFace(PatchLoad disc, const Eigen::Vector3d& block_mm);
 
-/// The disc nearest to this one whose centre lies on the top face: an indenter's, which may stand over an edge.
+/// The disc nearest to this one whose centre lies on the top face: an indenter's, which may extend over an edge.
 PatchLoad overFace(PatchLoad disc, const Eigen::Vector3d& block_mm);
 
 /// A disc held by the mouse: at its rim it is sized, inside it is moved.

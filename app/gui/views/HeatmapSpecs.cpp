@@ -45,7 +45,7 @@ HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKin
     quantity = "dR";
     break;
   case ResistanceKind::RelativeChange:
-  case ResistanceKind::LessKept:
+  case ResistanceKind::LessReference:
     spec.title = "Relative change of resistance under the load";
     spec.values = 100 * (now - rest).cwiseQuotient(rest);
     quantity = "dR/R";

@@ -7,7 +7,7 @@
 namespace palp {
 
 /// Resistances under a load as a heatmap: R [ohm], R - R at rest [ohm], or its share of R at rest [%]; that share too
-/// for LessKept.
+/// for LessReference.
 HeatmapSpec resistanceHeatmap(const TouchResistances& resistances, ResistanceKind kind);
 
 /// A sentence in their place: why there are none, empty while they are computed.
@@ -17,7 +17,7 @@ HeatmapSpec noResistancesYet(const QString& problem);
 HeatmapSpec resistanceHeatmap(const SensorDesign& design, const ElectrodeDisplacements& electrodes,
                               ResistanceKind kind);
 
-/// Shares [%] of a design less those of another one with as many wires: "the kept design's".
+/// Relative changes [%] of a design minus those of another one with as many wires: "the reference design's".
 HeatmapSpec heatmapLess(const Eigen::MatrixXd& difference_percent, const std::string& whose);
 
 } // namespace palp

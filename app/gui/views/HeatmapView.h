@@ -16,7 +16,7 @@ public:
 
   void setHeatmap(HeatmapSpec spec);
   void setTheme(Theme theme);
-  /// What the tool tip says of a cell more than the value that is drawn; empty: nothing.
+  /// What the tool tip of a cell shows in addition to the value that is drawn; empty: nothing.
   void setCellWords(std::function<QString(const std::array<int, 2>& cell)> words) { cellWords_ = std::move(words); }
   [[nodiscard]] QString table() const override;
   [[nodiscard]] bool hasSvg() const override { return heatmap_.spec.values.size() > 0; }

@@ -102,7 +102,7 @@ void PictureView::count(qint64 time_ms) {
 }
 
 bool PictureView::waits() {
-  const qint64 own_ms = std::max(lastDraw_ms_, kPass_ms / 2); // one of nothing yet says little of the next
+  const qint64 own_ms = std::max(lastDraw_ms_, kPass_ms / 2); // an empty first picture does not predict the next
   if (drawnInPass_ms > 0) return drawnInPass_ms + own_ms > kPass_ms;
   // Panels were filled in this pass; a loop that somebody turns by hand does not say when it wakes: once is enough.
   return awakeClock().elapsed() + own_ms > kPass_ms && !std::exchange(waited_, true);
@@ -217,7 +217,7 @@ void PictureView::saveSvg() {
   const QString file = askFileToSave(this, tr("Save as SVG"), fileName("chart") + ".svg", tr("Drawings (*.svg)"));
   if (file.isEmpty()) return;
   try {
-    writeFile(file.toStdString(), svg(), true); // the dialog has asked
+    writeFile(file.toStdString(), svg(), true); // confirmed in the dialog
     emit message(tr("Wrote %1.").arg(file));
   } catch (const Error& error) {
     QMessageBox::warning(this, tr("Save as SVG"), QString::fromStdString(error.what()));

@@ -25,9 +25,9 @@ public:
   [[nodiscard]] const QImage& image();
   /// The view in another size.
   [[nodiscard]] Picture picture(int width, int height) { return renderPicture(width, height); }
-  /// What the view shows as a table, offered beside the picture; empty: it has none.
+  /// What the view shows as a table, offered next to the picture; empty: it has none.
   [[nodiscard]] virtual QString table() const { return {}; }
-  /// What the view shows can be drawn by lines and letters, offered as SVG beside the picture.
+  /// What the view shows can be drawn by lines and letters, offered as SVG next to the picture.
   [[nodiscard]] virtual bool hasSvg() const { return false; }
   /// The text of an SVG file of the view's size. Throws Error.
   [[nodiscard]] virtual std::string svg() const { return {}; }

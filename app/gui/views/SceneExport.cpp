@@ -75,7 +75,7 @@ void SceneExport::write(QWidget& scene, const QString& folder) {
   for (const QString& file : filesOf(scene)) {
     try {
       files_.push_back({QDir(folder).filePath(QFileInfo(file).fileName()), readFile(file.toStdString()), {}});
-    } catch (const Error& error) { // taken away since it was shown
+    } catch (const Error& error) { // deleted since it was shown
       emit done(QString::fromStdString(error.what()));
     }
   }

@@ -13,16 +13,16 @@ namespace palp {
 
 /// Every chart of a scene as a picture of twice its size and as its points, every view of the block as a picture and
 /// every table as CSV, into a folder. Views that show nothing yet are left out. The window draws one picture at a time
-/// and stays free between them; the files are written beside it.
+/// and stays free between them; the files are written in the background.
 class SceneExport : public QObject {
   Q_OBJECT
 
 public:
   explicit SceneExport(QObject* parent = nullptr);
 
-  /// Asks for the name of a new folder. One export at a time: while one is drawn or written it only says so.
+  /// Asks for the name of a new folder. One export at a time: while one is drawn or written it only reports that.
   void ask(QWidget& scene);
-  /// Into a folder that is there.
+  /// Into an existing folder.
   void write(QWidget& scene, const QString& folder);
   [[nodiscard]] bool running() const { return !left_.empty() || writer_.running(); }
   [[nodiscard]] JobRunner& runner() { return writer_; }

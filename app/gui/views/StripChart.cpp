@@ -12,9 +12,9 @@ namespace palp {
 
 namespace {
 
-constexpr double kLegendLine_px = 32; // of a legend's entry beside its name
+constexpr double kLegendLine_px = 32; // of a legend's entry without its name
 constexpr double kMarkGap_px = 3;     // between a mark's line and its words
-constexpr double kSwatch_px = 18;     // of a curve's colour and the gap beside it, where it is read
+constexpr double kSwatch_px = 18;     // of a curve's colour and the gap after it, in the reading
 constexpr double kReadingGap_px = 6;  // around what is read
 constexpr double kHatch = 0.25;       // opacity of the ground where values are doubted
 constexpr double kOwnColor = 0.25;    // share of a curve's colour that it keeps there
@@ -144,7 +144,7 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
                        (held_ ? tr(", frozen: double click to resume") : QString()));
   painter.save();
   const double label = std::max(plot.height(), QFontMetricsF(font()).horizontalAdvance(spec_.yLabel) + 2);
-  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // whole, if it can be
+  const double middle = std::max(label / 2, std::min(plot.center().y(), height() - label / 2)); // complete, if it fits
   painter.translate(line / 2 + 4, middle);
   painter.rotate(-90);
   painter.drawText(QRectF(-label / 2, -line / 2, label, line), Qt::AlignCenter, spec_.yLabel);
@@ -155,16 +155,16 @@ void StripChart::paintAxes(QPainter& painter, const QRectF& plot) const {
 }
 
 /// The time of doubt that holds a time; null: none.
-const StripDoubt* StripChart::doubtAt(double t_s) const {
+const ImplausibleSpan* StripChart::implausibleAt(double t_s) const {
   const auto next = std::lower_bound(spec_.doubts.begin(), spec_.doubts.end(), t_s,
-                                     [](const StripDoubt& doubt, double at_s) { return doubt.to_s < at_s; });
+                                     [](const ImplausibleSpan& doubt, double at_s) { return doubt.to_s < at_s; });
   return next != spec_.doubts.end() && next->from_s <= t_s ? &*next : nullptr;
 }
 
-void StripChart::paintDoubts(QPainter& painter, const QRectF& plot) const {
+void StripChart::paintImplausible(QPainter& painter, const QRectF& plot) const {
   QColor hatch = ink(palp::palette(theme_).text);
   hatch.setAlphaF(kHatch);
-  for (const StripDoubt& doubt : spec_.doubts)
+  for (const ImplausibleSpan& doubt : spec_.doubts)
     painter.fillRect(
         QRectF(QPointF(xOf(plot, doubt.from_s), plot.top()), QPointF(xOf(plot, doubt.to_s), plot.bottom())),
         QBrush(hatch, Qt::BDiagPattern));
@@ -177,7 +177,7 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
   tint.setAlphaF(0.15F);
   for (const auto& [from_s, to_s] : spec_.spans)
     painter.fillRect(QRectF(QPointF(xOf(plot, from_s), plot.top()), QPointF(xOf(plot, to_s), plot.bottom())), tint);
-  paintDoubts(painter, plot);
+  paintImplausible(painter, plot);
   painter.setRenderHint(QPainter::Antialiasing);
   // Lines, and no polyline: its stroke is one path, and a frame of a noisy signal took Qt's painter seconds to fill it.
   QList<QLineF> lines, doubted;
@@ -198,7 +198,7 @@ void StripChart::paintCurves(QPainter& painter, const QRectF& plot) const {
         column = -1;
         continue;
       }
-      inDoubt = doubtAt(series.t_s[k]) != nullptr;
+      inDoubt = implausibleAt(series.t_s[k]) != nullptr;
       const double y = std::clamp(yOf(plot, series.y[k]), plot.top() - kBeyond * plot.height(),
                                   plot.bottom() + kBeyond * plot.height());
       if (std::floor(x) == column) {
@@ -237,7 +237,7 @@ std::vector<StripChart::WordsOfMark> StripChart::wordsOfMarks(const QRectF& plot
   for (const auto& [t_s, text] : spec_.marks) {
     const double x = xOf(plot, t_s);
     if (x < plot.left() || x > plot.right() || text.isEmpty()) continue;
-    const bool alarm = text.startsWith("alarm: "); // the cursor says more of it
+    const bool alarm = text.startsWith("alarm: "); // the cursor shows more of it
     const QString words =
         metrics.elidedText(alarm ? tr("alarm") : text, Qt::ElideRight, plot.width() - 2 * kMarkGap_px);
     const double width = metrics.horizontalAdvance(words);
@@ -335,7 +335,7 @@ std::vector<StripChart::ReadingLine> StripChart::readingLines() const {
       text += QString::fromUtf8(" \u00b1 %1").arg(series.deviation[place], 0, 'g', 2);
     lines.push_back({series.name, std::isfinite(value) ? text + unit() : text, series.color});
   }
-  if (const StripDoubt* doubt = doubtAt(t_s)) lines.push_back({tr("implausible"), doubt->why, {}});
+  if (const ImplausibleSpan* doubt = implausibleAt(t_s)) lines.push_back({tr("implausible"), doubt->why, {}});
   for (const auto& [mark_s, text] : spec_.marks)
     if (std::abs(xOf(plot, mark_s) - pointer_px_) <= kMarkGap_px) lines.push_back({tr("mark"), text, {}});
   return lines;
@@ -347,7 +347,7 @@ QString StripChart::reading() const {
   return words.join("\n");
 }
 
-/// Of the values: what stands in brackets in the axis' label.
+/// The unit of the values: the text in brackets in the axis label.
 QString StripChart::unit() const {
   const QString unit = spec_.yLabel.section('[', 1).section(']', 0, 0);
   return unit.isEmpty() ? QString() : " " + unit;

@@ -11,7 +11,7 @@
 
 namespace palp {
 
-/// A curve over time; a value that is no number breaks it.
+/// A curve over time; a value that is not a number breaks it.
 struct StripSeries {
   QString name;
   int color = 0; ///< place in the palette's series colours
@@ -20,7 +20,7 @@ struct StripSeries {
 };
 
 /// A time in which the values can hardly be true: the curves are grey there, on a hatched ground.
-struct StripDoubt {
+struct ImplausibleSpan {
   double from_s = 0, to_s = 0;
   QString why; ///< at its end
 };
@@ -35,9 +35,9 @@ struct StripSpec {
   std::vector<StripSeries> series;
   std::vector<std::pair<double, QString>> marks; ///< events at their times
   std::vector<std::array<double, 2>> spans;      ///< tinted times: from, to
-  std::vector<StripDoubt> doubts;                ///< in order
+  std::vector<ImplausibleSpan> doubts;           ///< in order
   std::vector<double> limits;                    ///< drawn across
-  QString empty;                                 ///< said where there is no curve
+  QString empty;                                 ///< shown where there is no curve
 };
 
 /// Curves of a live source. The wheel zooms in time (Ctrl: in value), a drag moves: then the curves are held, until a
@@ -95,28 +95,28 @@ private:
   void zoomValue(double factor, double about_px);
   void move(double byTime_s, double byValue);
   void moveCursor(int steps);
-  /// Says the sentence, or why not.
+  /// Reports the sentence, or why it failed.
   void write(const QString& file, const QByteArray& content, const QString& done);
   void saveCsv();
   void savePdf();
   void paintAxes(QPainter& painter, const QRectF& plot) const;
   void paintCurves(QPainter& painter, const QRectF& plot) const;
-  void paintDoubts(QPainter& painter, const QRectF& plot) const;
+  void paintImplausible(QPainter& painter, const QRectF& plot) const;
   void paintMarks(QPainter& painter, const QRectF& plot) const;
   void paintLegend(QPainter& painter, const QRectF& plot) const;
   void paintReading(QPainter& painter, const QRectF& plot) const;
-  /// What stands at the cursor: a curve's name and value, or one text alone.
+  /// What is shown at the cursor: a curve's name and value, or one text alone.
   struct ReadingLine {
     QString name, value;
     std::optional<int> color;
   };
   [[nodiscard]] std::vector<ReadingLine> readingLines() const;
-  /// The legend's lines: how many curves stand in each, from the first.
+  /// The legend's lines: how many curves each has, from the first.
   [[nodiscard]] std::vector<std::size_t> legendLines(double room_px) const;
   [[nodiscard]] double legendWidth(std::size_t first, std::size_t count) const;
-  /// The title stands in a line of its own where it has no room beside the legend's first.
+  /// The title gets a line of its own where it does not fit next to the legend's first line.
   [[nodiscard]] int linesAbove(double room_px) const;
-  [[nodiscard]] const StripDoubt* doubtAt(double t_s) const;
+  [[nodiscard]] const ImplausibleSpan* implausibleAt(double t_s) const;
   [[nodiscard]] QString unit() const;
   [[nodiscard]] QRectF plotRectangle() const;
   [[nodiscard]] double xOf(const QRectF& plot, double t_s) const;

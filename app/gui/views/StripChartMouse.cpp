@@ -157,7 +157,7 @@ void StripChart::keyPressEvent(QKeyEvent* event) {
   QWidget::keyPressEvent(event);
 }
 
-/// By keys; what stands there is said to screen readers too.
+/// By keys; screen readers get the values there too.
 void StripChart::moveCursor(int steps) {
   const QRectF plot = plotRectangle();
   if (pointer_px_ < plot.left() || pointer_px_ > plot.right()) pointer_px_ = plot.right();
@@ -205,7 +205,7 @@ QString StripChart::asCsv() const {
       const StripSeries& series = spec_.series[k];
       values += ',';
       if (!series.deviation.empty()) deviations += ',';
-      // A break and the value after it stand at one time: the value counts.
+      // A break and the value after it have the same time: the value counts.
       for (; next[k] < series.t_s.size() && series.t_s[next[k]] <= t_s; ++next[k]) {
         if (series.t_s[next[k]] != t_s || !std::isfinite(series.y[next[k]])) continue;
         values += QString::number(series.y[next[k]], 'g', 10);
@@ -213,7 +213,7 @@ QString StripChart::asCsv() const {
           deviations += QString::number(series.deviation[next[k]], 'g', 4);
       }
     }
-    const QString doubted = spec_.doubts.empty() ? QString() : doubtAt(t_s) != nullptr ? ",1" : ",0";
+    const QString doubted = spec_.doubts.empty() ? QString() : implausibleAt(t_s) != nullptr ? ",1" : ",0";
     text += QString::number(t_s - zero_s_, 'f', 6) + values + deviations + doubted + "\n";
   }
   return text;
@@ -221,7 +221,7 @@ QString StripChart::asCsv() const {
 
 void StripChart::write(const QString& file, const QByteArray& content, const QString& done) {
   try {
-    writeFile(file.toStdString(), content.toStdString(), true); // the dialog has asked
+    writeFile(file.toStdString(), content.toStdString(), true); // confirmed in the dialog
     emit message(done);
   } catch (const Error& error) {
     emit message(QString::fromStdString(error.what()));

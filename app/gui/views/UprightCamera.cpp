@@ -24,7 +24,7 @@ vtkStandardNewMacro(UprightCamera)
   const double* up = camera.GetViewUp();
   const double x = eye[0] - focus[0], y = eye[1] - focus[1], z = eye[2] - focus[2];
   const double distance = std::hypot(x, y, z), aside = std::hypot(x, y);
-  // Straight from above or below only the upper edge of the view tells which way is ahead.
+  // Straight from above or below only the upper edge of the view shows which direction is ahead.
   const double azimuth =
       aside > 1e-6 * distance ? std::atan2(y, x) : (z > 0 ? std::atan2(-up[1], -up[0]) : std::atan2(up[1], up[0]));
   constexpr double kTurn = std::numbers::pi; // for a drag across the view

@@ -101,7 +101,7 @@ void VtkView::giveBack() {
   if (!isVisible()) forget();
 }
 
-void giveBackViews(const QWidget& window) {
+void releaseViews(const QWidget& window) {
   for (VtkView* view : window.findChildren<VtkView*>()) view->giveBack();
   returnMemory();
 }

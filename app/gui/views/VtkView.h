@@ -19,8 +19,8 @@ public:
   VtkView(vtkRenderer* renderer, vtkInteractorObserver* style, QWidget* parent = nullptr);
   ~VtkView() override;
 
-  /// Gives back what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
-  /// stands still; the next drawing begins anew.
+  /// Releases what drawing needs, about 10 MB on a software renderer, where the view is not seen or its picture
+  /// does not change; the next drawing starts from scratch.
   void giveBack();
   /// It holds what drawing needs.
   [[nodiscard]] bool drawn() const;
@@ -65,6 +65,6 @@ private:
 };
 
 /// What all views of a window that need not draw now hold for it goes back to the system.
-void giveBackViews(const QWidget& window);
+void releaseViews(const QWidget& window);
 
 } // namespace palp

@@ -27,7 +27,7 @@ QString afterProject(const QWidget* parent, const QString& proposal) {
   return project + '-' + proposal;
 }
 
-/// The next number behind a name without folder that is there already, so that Return alone replaces nothing.
+/// The next number after an existing name without folder, so that Return alone replaces nothing.
 QString freeIn(const QDir& folder, const QString& proposal) {
   if (proposal.contains('/')) return proposal;
   const QString ending = QFileInfo(proposal).suffix().isEmpty() ? QString() : '.' + QFileInfo(proposal).suffix();
@@ -75,7 +75,7 @@ QString askFileToSave(QWidget* parent, const QString& title, const QString& prop
   dialog.setFileMode(QFileDialog::AnyFile);
   dialog.setDefaultSuffix(QFileInfo(proposal).suffix());
   dialog.selectFile(freeIn(dialog.directory(), afterProject(parent, proposal)));
-  // A proposal that is there is chosen in the list too, and Qt would take it before a path that is typed.
+  // An existing proposal is selected in the list too, and Qt would prefer it to a path that is typed.
   for (auto* list : dialog.findChildren<QAbstractItemView*>())
     if (list->selectionModel() != nullptr) list->selectionModel()->clear();
   dialog.setOption(QFileDialog::DontConfirmOverwrite); // Qt would ask about the name before it has its ending

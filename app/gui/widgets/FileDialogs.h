@@ -17,7 +17,7 @@ QString askFileToSave(QWidget* parent, const QString& title, const QString& prop
 /// Asks for a file to read; begins in `folder` where one is given. Empty where the user does not want it.
 QString askFileToOpen(QWidget* parent, const QString& title, const QString& filter, const QString& folder = {});
 
-/// The same for several at once.
+/// The same for several files.
 QStringList askFilesToOpen(QWidget* parent, const QString& title, const QString& filter);
 
 } // namespace palp

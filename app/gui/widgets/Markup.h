@@ -6,8 +6,8 @@ class QLabel;
 
 namespace palp {
 
-// Labels show their text as written (Application), so that a file named "<b>x" looks like it. What means markup says so
-// here, and escapes what comes from users and files.
+// Labels show their text as written (Application), so that a file named "<b>x" looks like it. Text with markup is
+// marked so here, and escapes what comes from users and files.
 
 /// A label whose text is markup.
 QLabel* markupLabel(const QString& markup = {});

@@ -28,7 +28,7 @@ int decimalsOf(double value, int least) {
   return kMostDecimals;
 }
 
-/// The place of the only comma where no point stands beside it; -1 where there is none to take.
+/// The position of the only comma of a text without a point; -1 where there is none.
 qsizetype decimalComma(const QString& words) {
   return words.count(',') == 1 && !words.contains('.') ? words.indexOf(',') : -1;
 }
@@ -42,7 +42,7 @@ std::optional<double> typedNumber(const QString& words) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-void sayNotApplied(QWidget& at, const QString& sentence) {
+void showNotApplied(QWidget& at, const QString& sentence) {
   if (auto* messages = at.window()->findChild<QObject*>("messages")) // a dialog has none
     QMetaObject::invokeMethod(messages, "say", Q_ARG(QString, sentence));
   // The focus that is on its way to another widget would hide a box that is shown now.
@@ -83,9 +83,9 @@ template <class Box> void TypedBox<Box>::fixup(QString& text) const {
   const bool special = value == this->minimum() && !this->specialValueText().isEmpty();
   const QString kept =
       special ? this->specialValueText() : this->prefix() + this->textFromValue(value) + this->suffix();
-  if (!typed.isEmpty()) // an empty box is no mistake
-    sayNotApplied(const_cast<TypedBox&>(*this),
-                  QObject::tr("Not applied: %1. The value is still %2").arg(whyNot(typed), kept.trimmed()));
+  if (!typed.isEmpty()) // an empty box is not a mistake
+    showNotApplied(const_cast<TypedBox&>(*this),
+                   QObject::tr("Not applied: %1. The value is still %2").arg(whyNot(typed), kept.trimmed()));
   text = kept;
 }
 
@@ -119,17 +119,18 @@ std::optional<int> WholeBox::read(const QString& typed) const {
   return whole ? std::optional(value) : std::nullopt;
 }
 
-PercentBox::PercentBox(QWidget* parent) : NumberBox(parent) {
-  setSuffix(tr(" %"));
+RatioBox::RatioBox(double factor, QString unit, QWidget* parent)
+    : NumberBox(parent), factor_(factor), unit_(std::move(unit)) {
+  setSuffix(" " + unit_);
 }
 
-std::optional<double> PercentBox::read(const QString& typed) const {
-  const bool percent = typed.endsWith('%');
-  const auto value = typedNumber(percent ? typed.chopped(1) : typed);
-  return value && !percent && typed.contains('e', Qt::CaseInsensitive) ? 100 * *value : value;
+std::optional<double> RatioBox::read(const QString& typed) const {
+  const bool hasUnit = typed.endsWith(unit_);
+  const auto value = typedNumber(hasUnit ? typed.chopped(unit_.size()).trimmed() : typed);
+  return value && !hasUnit && typed.contains('e', Qt::CaseInsensitive) ? factor_ * *value : value;
 }
 
-QString PercentBox::textFromValue(double value) const {
+QString RatioBox::textFromValue(double value) const {
   return QString::number(value, 'g', 12);
 }
 
@@ -151,9 +152,9 @@ void showSixDigits(QDoubleSpinBox& box, double value) {
   showExactly(box, QString::number(value, 'g', 6).toDouble());
 }
 
-double readExactly(const QDoubleSpinBox& box, double value, bool percent) {
-  const double unit = percent ? 100 : 1, shown = box.value();
-  return std::abs(shown - unit * value) <= 0.5001 * std::pow(10, -box.decimals()) ? value : shown / unit;
+double readExactly(const QDoubleSpinBox& box, double value, double factor) {
+  const double shown = box.value();
+  return std::abs(shown - factor * value) <= 0.5001 * std::pow(10, -box.decimals()) ? value : shown / factor;
 }
 
 } // namespace palp

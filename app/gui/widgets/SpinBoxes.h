@@ -8,14 +8,14 @@
 
 namespace palp {
 
-/// The number that was typed, in every field of the window: a single comma stands for the decimal point, whatever the
+/// The number that was typed, in every field of the window: a single comma means the decimal point, whatever the
 /// locale. Returns nullopt where the text is not a number, as "1,234.5" with its group separator.
 std::optional<double> typedNumber(const QString& words);
 
-/// Says why what was typed at a widget is not applied: in a tooltip at the widget and in the messages of its window.
-void sayNotApplied(QWidget& at, const QString& sentence);
+/// Reports why what was typed at a widget is not applied: in a tooltip at the widget and in the messages of its window.
+void showNotApplied(QWidget& at, const QString& sentence);
 
-/// A box of numbers that never drops a key: what is typed or pasted is applied as it stands, or refused with a sentence
+/// A box of numbers that never drops a key: what is typed or pasted is applied as it is, or refused with a sentence
 /// and the value from before the typing comes back. QDoubleSpinBox and QSpinBox alone leave out the keys that they do
 /// not take: "-1,5" becomes -15, and "40" in a box up to 30 becomes 4.
 template <class Box> class TypedBox : public Box {
@@ -26,12 +26,12 @@ public:
 
 protected:
   using Value = decltype(std::declval<Box>().value());
-  /// The value of what stands between prefix and suffix; nullopt where it has none.
+  /// The value of the text between prefix and suffix; nullopt where it has none.
   [[nodiscard]] virtual std::optional<Value> read(const QString& typed) const = 0;
   /// Why a value cannot be applied; empty where it can.
   [[nodiscard]] virtual QString whyNot(const QString& typed) const;
   [[nodiscard]] Value valueFromText(const QString& text) const override;
-  /// What stands between prefix and suffix.
+  /// The text between prefix and suffix.
   [[nodiscard]] QString typedIn(const QString& text) const;
 
 private:
@@ -59,20 +59,25 @@ protected:
   [[nodiscard]] std::optional<int> read(const QString& typed) const override;
 };
 
-/// A box of percent that understands a small share however it is written: a number with an exponent is the share itself
-/// ("1e-4" is 0.01 %) unless a percent sign follows it at once ("1e-2%"); all else is percent.
-class PercentBox : public NumberBox {
+/// A box of a ratio in percent or ppm that accepts every notation: a number with an exponent is the ratio itself
+/// ("1e-4" is 0.01 %) unless the unit follows it ("1e-2%"); any other number has the unit of the box.
+class RatioBox : public NumberBox {
 public:
-  explicit PercentBox(QWidget* parent = nullptr);
+  /// `factor`: 100 with the unit "%", 1e6 with "ppm".
+  explicit RatioBox(double factor, QString unit, QWidget* parent = nullptr);
   /// Without zeros at its end.
   [[nodiscard]] QString textFromValue(double value) const override;
 
 protected:
-  /// In percent.
+  /// In the unit of the box.
   [[nodiscard]] std::optional<double> read(const QString& typed) const override;
+
+private:
+  double factor_;
+  QString unit_;
 };
 
-/// What a box of percent took, both ways: "0.01 % (a share of 1e-04)", "none".
+/// A ratio in percent and in ppm: "0.01 % (100 ppm)", or "none".
 QString percentWords(double share);
 
 /// Shows the value as it is: a file may hold one with more digits, or beyond the range that the box offers, and the box
@@ -82,7 +87,7 @@ void showExactly(QDoubleSpinBox& box, double value);
 /// The same to six digits: of a number that was computed, and that readExactly reads back to its last digit.
 void showSixDigits(QDoubleSpinBox& box, double value);
 
-/// What the box says, a hundredth of it where it is percent; `value` itself, to its last digit, where it shows that.
-double readExactly(const QDoubleSpinBox& box, double value, bool percent = false);
+/// The number in the box, which shows `factor` times a value; `value` itself, to its last digit, if the box shows it.
+double readExactly(const QDoubleSpinBox& box, double value, double factor = 1);
 
 } // namespace palp

@@ -4,7 +4,7 @@
 
 namespace palp {
 
-/// Tool tips of the whole window, those of the rows of lists too, are shown as written, in lines that can be read: Qt
+/// Tool tips of the window, those of the rows of lists too, are shown as written, in lines that can be read: Qt
 /// draws a plain one as a single line, and a file named "<b>x" as markup. A tip that means markup begins with <qt>.
 class ToolTipWrap : public QObject {
 public:

@@ -4,7 +4,7 @@
 
 namespace palp {
 
-/// What is wrong with a list of numbers that stand between commas: "1,5" may be 1.5 or 1 and 5. Empty where each comma
+/// What is wrong with a list of numbers between commas: "1,5" may be 1.5 or 1 and 5. Empty where each comma
 /// has a blank after it, or one of its two numbers has a decimal point.
 QString unclearComma(const QString& list);
 

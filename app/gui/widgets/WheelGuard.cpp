@@ -43,7 +43,7 @@ bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
   const bool its = box != nullptr && focused != nullptr && (focused == box || box->isAncestorOf(focused));
   if (its && place != scrolledAt_) return false;
   scrolledAt_ = place;
-  if (turns) event->ignore(); // goes on to the panel
+  if (turns) event->ignore(); // passed on to the panel
   return turns;
 }
 

@@ -16,7 +16,7 @@ protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-  QPointF scrolledAt_{-1, -1}; ///< where the pointer stands since a turn of the wheel scrolled [px of the screen]
+  QPointF scrolledAt_{-1, -1}; ///< where the pointer was when the wheel last scrolled [px of the screen]
 };
 
 } // namespace palp

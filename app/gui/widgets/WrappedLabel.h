@@ -5,7 +5,7 @@
 namespace palp {
 
 /// Words that break into as many lines as they need: a layout alone gives such a label the height of fewer lines where
-/// it appears later, and what stands below covers the rest.
+/// it appears later, and the widgets below cover the rest.
 class WrappedLabel : public QLabel {
 public:
   explicit WrappedLabel(const QString& words = {}, QWidget* parent = nullptr);

@@ -20,8 +20,8 @@ Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
 
 namespace {
 
-/// What a label shows may hold a file's or a board's name, which is not markup. A label that means markup says RichText
-/// (app/gui/widgets/Markup.h); tool tips are ToolTipWrap's.
+/// The text of a label may contain a file's or a board's name, which is not markup. A label with markup is set to
+/// RichText (app/gui/widgets/Markup.h); tool tips are ToolTipWrap's.
 void showAsWritten(QLabel& label) {
   if (label.textFormat() == Qt::AutoText && !label.inherits("QTipLabel")) label.setTextFormat(Qt::PlainText);
 }

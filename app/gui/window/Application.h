@@ -5,10 +5,10 @@
 namespace palp {
 
 /// Every program with a window of ours begins with it. It keeps numbers in one convention, with a decimal point, under
-/// every locale: QApplication takes over the user's for the whole process, C library included.
+/// every locale: QApplication takes over the user's for the process, C library included.
 ///
 /// The last catch of the window's thread: an exception that leaves a slot or an event handler would end the program
-/// together with all that was not saved. It ends here instead, is said on standard error and passed on as faulted().
+/// together with all that was not saved. It ends here instead, is written to standard error and passed on as faulted().
 class Application : public QApplication {
   Q_OBJECT
 
@@ -22,8 +22,8 @@ signals:
   void faulted(const QString& what);
 };
 
-/// Says what happened in a box beside the window; a fault that comes again and again changes the words of the box that
-/// is there.
+/// Shows what happened in a message box; a repeated fault changes the text of the
+/// existing box.
 void showFault(QWidget& window, const QString& what);
 
 } // namespace palp

@@ -1,6 +1,7 @@
 #include "app/gui/window/JobStrip.h"
 
 #include "app/gui/jobs/JobRunner.h"
+#include "app/gui/widgets/MakeWidgets.h"
 
 #include <QHBoxLayout>
 #include <QProgressBar>
@@ -24,17 +25,13 @@ JobStrip::JobStrip(JobRunner& runner, QWidget* parent) : QWidget(parent) {
   words_->setObjectName("jobWords");
   words_->setAutoRaise(true);
   words_->setToolTip(tr("Shows the scene of this computation"));
-  connect(words_, &QToolButton::clicked, this, &JobStrip::sceneAsked);
+  connect(words_, &QToolButton::clicked, this, &JobStrip::sceneRequested);
   bar_ = new QProgressBar;
   bar_->setFixedWidth(140);
   bar_->setMaximumHeight(14);
   bar_->setTextVisible(false);
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName("cancel");
-  cancel_->setToolTip(tr("Cancels the computation; the last good result is kept (Esc)"));
-  row->addWidget(words_);
-  row->addWidget(bar_);
-  row->addWidget(cancel_);
+  cancel_ = pushButton(tr("Cancel"), "cancel", tr("Cancels the computation; the last good result is kept (Esc)"));
+  addTo(*row, {words_, bar_, cancel_});
   hide();
   wait_.setSingleShot(true);
   wait_.setInterval(kShownAfter_ms);

@@ -23,7 +23,7 @@ signals:
   /// A sentence for the status line.
   void message(const QString& sentence);
   /// Its words were clicked on: where the work is done is to be seen.
-  void sceneAsked();
+  void sceneRequested();
 
 private:
   QToolButton* words_ = nullptr;

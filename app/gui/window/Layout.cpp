@@ -13,7 +13,7 @@ namespace palp {
 
 namespace {
 
-// Of a usual window's frame: before the window is shown nobody knows the true one.
+// Of a usual window's frame: the true one is unknown before the window is shown.
 constexpr int kBorder_px = 4;
 constexpr int kTitle_px = 32;
 

@@ -30,7 +30,7 @@ void keepQtMessage(QtMsgType type, const QMessageLogContext& context, const QStr
 
 LogFile::LogFile(const QString& folder, QObject* parent) : QObject(parent) {
   if (folder.isEmpty()) return;
-  QDir().mkpath(folder); // where that fails the first line says so
+  QDir().mkpath(folder); // a failure is reported by the first line
   path_ = QDir(folder).filePath("palp-studio.log");
   works_ = true;
 }

@@ -95,7 +95,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   log_->toggleViewAction()->setStatusTip(tr("Message log: alarms, boards, wires, tares, files"));
   auto* designPage = new DesignPage(workbench, network);
   connect(designPage, &DesignPage::stageChanged, this, [this] { workbench_.touch().need(currentScene().stage()); });
-  connect(designPage, &DesignPage::sceneAsked, this, &MainWindow::showScene);
+  connect(designPage, &DesignPage::sceneRequested, this, &MainWindow::showScene);
   addScene("design", tr("Design"), tr("Sensor at rest and all its parameters"), designPage);
   deformation_ = new DeformationPage(workbench);
   connect(deformation_, &DeformationPage::message, this, &MainWindow::showMessage);
@@ -104,12 +104,12 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("deformation", tr("Deformation"), tr("Block under load"), deformation_);
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under load"), new ResistancePage(workbench));
   networkPage_ = new NetworkPage(workbench, network);
-  connect(networkPage_, &NetworkPage::sceneAsked, this, &MainWindow::showScene);
+  connect(networkPage_, &NetworkPage::sceneRequested, this, &MainWindow::showScene);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage_);
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
   connect(live_, &LiveBoards::recordingsChanged, this, &MainWindow::recordingsChanged);
-  connect(live_, &LiveBoards::sceneAsked, this, &MainWindow::showScene);
+  connect(live_, &LiveBoards::sceneRequested, this, &MainWindow::showScene);
   connect(networkPage_, &NetworkPage::liveNetworkReplaced, this, [this] { live_->page().host().useChosenNetwork(); });
   addScene("live", tr("Live"), tr("Forces of a board, the simulated board or a recording"), live_);
   reports_ = new ReportsPage(workbench);
@@ -132,9 +132,9 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   buildStatusLine();
   new Menus(*this, workbench, *document_);
   new HistorySteps(*this, workbench);
-  connect(&network, &NetworkSession::memoryNeeded, this, &MainWindow::giveBackMemory);
+  connect(&network, &NetworkSession::memoryNeeded, this, &MainWindow::releaseMemory);
   connect(&workbench, &Workbench::projectReplaced, this,
-          &MainWindow::giveBackMemory); // after the document let go of it
+          &MainWindow::releaseMemory); // after the document has released it
   setAcceptDrops(true);
   connect(new EscapeKey(this), &EscapeKey::pressed, this, &MainWindow::cancelAll);
   connect(rail_, &QListWidget::currentRowChanged, this, &MainWindow::sceneChosen);
@@ -156,9 +156,9 @@ void MainWindow::addScene(const QString& name, const QString& title, const QStri
 void MainWindow::buildStatusLine() {
   auto* status = new StatusLamps(*live_, statusBar());
   connect(status, &StatusLamps::message, this, &MainWindow::showMessage);
-  connect(status, &StatusLamps::sceneAsked, this, &MainWindow::showScene);
+  connect(status, &StatusLamps::sceneRequested, this, &MainWindow::showScene);
   lamps_ = status;
-  auto* messages = new QToolButton; // after the lamps: where one looks for what was said
+  auto* messages = new QToolButton; // after the lamps: where users look for messages
   messages->setObjectName("messagesShown");
   messages->setAutoRaise(true);
   messages->setDefaultAction(log_->toggleViewAction());
@@ -169,7 +169,7 @@ void MainWindow::buildStatusLine() {
         {&workbench_.touch().runner(), "deformation"}, {&network_.runner(), "network"},
         {&animation_->runner(), "deformation"},        {&network_.writer(), "network"},
         {&workbench_.kept().runner(), "deformation"},  {&exports_->runner(), "deformation"},
-        {&workbench_.field().runner(), "resistance"},  {&workbench_.keptField().runner(), "resistance"},
+        {&workbench_.field().runner(), "resistance"},  {&workbench_.referenceField().runner(), "resistance"},
         {&sceneExport_->runner(), "network"}};
     for (int k = 0; k < scenes_->count(); ++k)
       for (JobRunner* runner : static_cast<Scene*>(scenes_->widget(k))->runners()) jobs.push_back({runner, names_[k]});
@@ -184,9 +184,9 @@ void MainWindow::cancelAll() {
   lamps_->cancel(names_[scenes_->currentIndex()]);
 }
 
-void MainWindow::giveBackMemory() {
+void MainWindow::releaseMemory() {
   workbench_.touch().rest();
-  giveBackViews(*this);
+  releaseViews(*this);
 }
 
 bool MainWindow::busy() const {
@@ -271,7 +271,7 @@ void MainWindow::animate(const QString& path, const FilmSettings& film) {
 
 void MainWindow::showMessage(const QString& sentence) {
   statusBar()->showMessage(sentence, kMessage_ms);
-  if (!sentence.isEmpty()) log_->add(sentence); // else what stands there is over
+  if (!sentence.isEmpty()) log_->add(sentence); // else the message there is over
 }
 
 void MainWindow::restoreLayout() {

@@ -54,9 +54,9 @@ public:
   [[nodiscard]] bool busy() const;
   /// Size of the view that a film shows.
   [[nodiscard]] QSize filmedSize() const;
-  /// Draws the load path into a GIF or a folder; says why where it cannot.
+  /// Draws the load path into a GIF or a folder; reports why where it cannot.
   void animate(const QString& path, const FilmSettings& film);
-  /// Says a sentence in the status line, and keeps it in the log of messages.
+  /// Shows a sentence in the status line, and keeps it in the log of messages.
   void showMessage(const QString& sentence);
 
 signals:
@@ -77,7 +77,7 @@ private:
   /// What runs and would end, a sentence each.
   [[nodiscard]] QStringList losses(const Leaving& leaving) const;
   /// What only scenes need that are not seen.
-  void giveBackMemory();
+  void releaseMemory();
   void sceneChosen(int index);
   void restoreLayout();
 

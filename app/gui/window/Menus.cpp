@@ -1,8 +1,10 @@
 #include "app/gui/window/Menus.h"
 
 #include "app/gui/document/Document.h"
+#include "app/gui/jobs/ExportJob.h"
 #include "app/gui/project/ResultCsv.h"
 #include "app/gui/project/Workbench.h"
+#include "app/gui/touch/DeformationPage.h"
 #include "app/gui/touch/FilmDialog.h"
 #include "app/gui/views/PictureView.h"
 #include "app/gui/views/SceneExport.h"
@@ -10,10 +12,10 @@
 #include "app/gui/widgets/Png.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/ViewActions.h"
-#include "app/gui/window/exports/CutExport.h"
 #include "app/gui/window/exports/ExportSource.h"
 #include "app/gui/window/help/HelpDialog.h"
 #include "app/gui/window/history/UndoActions.h"
+#include "app/scenes/CutTable.h"
 #include "app/scenes/VtuFile.h"
 #include "app/study/Resources.h"
 #include "app/study/Version.h"
@@ -30,6 +32,7 @@
 #include <QDockWidget>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QObject>
 #include <QRegularExpression>
 #include <QUndoView>
 
@@ -52,6 +55,39 @@ constexpr std::array kExamples{
     Example{"thick-soft-block.json", "A thick, soft block under a ball",
             "36 x 36 x 12 mm of soft rubber, the conduction field, read by virtual ground"},
 };
+
+/// Why the cut cannot be exported now, in a sentence; empty where it can.
+QString cutProblem(Workbench& workbench, const DeformationPage& page) {
+  if (workbench.touch().fields() == nullptr)
+    return QObject::tr("There is no solution to export yet; wait until it is computed on the Deformation scene.");
+  if (!page.blockOptions().cut)
+    return QObject::tr("There is no cut: choose one across x, y or z in the panel of the Deformation scene.");
+  if (page.blockOptions().lessReference && !page.shownLess())
+    return QObject::tr("The difference from the reference design is not available yet; wait until it is computed.");
+  return {};
+}
+
+/// The coloured field in the cut as it is shown, under lines with load, design and whether they still hold.
+ExportJob::Making cutMaking(Workbench& workbench, const DeformationPage& page) {
+  const TouchSession& touch = workbench.touch();
+  return [shown = touch.touch(), fields = *touch.fields(), fraction = touch.loadFraction(), kept = page.shownLess(),
+          options = page.blockOptions(), stale = touchStale(workbench)](const std::stop_token& stop) {
+    DeformationState state;
+    state.design = &shown.design();
+    state.mesh = shown.mesh();
+    state.fields = &fields;
+    std::optional<LoadPathState> less;
+    if (kept) state.kept = &less.emplace(kept->at(fraction)).fields;
+    const ResultSource source{shown.design(), shown.load(), fraction, shown.meshOptions(), stale};
+    return (sourceLines(source) + "# cut across " + "xyz"[options.cut->axis] + " at " +
+            QString::number(options.cut->at_mm, 'g', 12) + " mm of the block as it is drawn, displacements times " +
+            QString::number(
+                options.deformationScale.value_or(automaticDeformationScale(shown.design(), fields.displacement_mm))) +
+            "\n")
+               .toStdString() +
+           cutCsv(state, options, stop);
+  };
+}
 
 } // namespace
 
@@ -98,11 +134,11 @@ void Menus::buildFile() {
   add(menu, tr("&Quit"), tr("Ends the program"), QKeySequence("Ctrl+Q"), [this] { window_.close(); });
 }
 
-/// Of what is shown now; the kept design beside it where that is shown too.
+/// Of what is shown now; with the reference design where that is shown too.
 ExportJob::Making Menus::vtuMaking() const {
   const TouchSession& touch = workbench_.touch();
-  std::shared_ptr<const KeptPath> kept;
-  if (workbench_.project().view.lessKept) kept = workbench_.keptPath();
+  std::shared_ptr<const ReferencePath> kept;
+  if (workbench_.project().view.lessReference) kept = workbench_.referencePath();
   return [shown = touch.touch(), fields = *touch.fields(), kept,
           fraction = touch.loadFraction()](const std::stop_token& stop) {
     std::vector<NodalArray> arrays = nodalArrays(fields);
@@ -198,7 +234,7 @@ void Menus::buildExport(QMenu& menu) {
   add(menu, tr("&Picture of the window..."),
       tr("Saves the window as PNG; a right click on a view saves only that view"), QKeySequence("Ctrl+P"), [this] {
         exportTo(tr("Picture of the window"), "palp.png", tr("Pictures (*.png)"), [this](const QString& file) {
-          writeFile(file.toStdString(), pngOf(windowPicture(window_)).toStdString(), true); // the dialog has asked
+          writeFile(file.toStdString(), pngOf(windowPicture(window_)).toStdString(), true); // confirmed in the dialog
         });
       });
   add(menu, tr("Copy as co&mmand"), tr("Copies the palp commands that do what the scene shows to the clipboard"),
@@ -248,7 +284,7 @@ void Menus::buildEdit() {
     workbench_.touch().resume();
     workbench_.kept().resume();
     workbench_.field().retry();
-    workbench_.keptField().retry();
+    workbench_.referenceField().retry();
   });
   auto* dock = new QDockWidget(tr("History"), &window_);
   dock->setObjectName("history");

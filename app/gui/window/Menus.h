@@ -37,7 +37,7 @@ private:
   void saveView();
   void listRecent();
   [[nodiscard]] ExportJob::Making vtuMaking() const;
-  /// Asks for a file and lets `write` write it; says what came of it.
+  /// Asks for a file, lets `write` write it and reports the outcome.
   void exportTo(const QString& title, const QString& proposal, const QString& filter,
                 const std::function<void(const QString&)>& write);
 

@@ -9,7 +9,7 @@ namespace palp {
 
 class LogFile;
 
-/// What the window has said since its start, with the time: a sentence of the status line is soon gone.
+/// The messages of the window since its start, with the time: the status line shows each only for a while.
 class MessageLog : public QDockWidget {
   Q_OBJECT
 
@@ -17,16 +17,16 @@ public:
   explicit MessageLog(QWidget* parent = nullptr);
 
   void add(const QString& sentence);
-  /// From now on the file has all messages too; the dock says where it lies.
+  /// From now on the file has all messages too; the dock shows its path.
   void keepIn(LogFile& file);
 
 public slots:
-  /// For a widget that knows no more of its window than its name for this dock: says the sentence as the window does.
+  /// For a widget that has only the object name of this dock: shows the sentence as the window does.
   void say(const QString& sentence) { emit asked(sentence); }
 
 signals:
   void added(const QString& sentence);
-  /// To be said by the window.
+  /// To be shown by the window.
   void asked(const QString& sentence);
 
 private:

@@ -18,7 +18,7 @@ StatusLamps::StatusLamps(LiveBoards& live, QStatusBar* bar) : QObject(bar), live
   report_->setAutoRaise(true);
   report_->setToolTip(tr("A report is running; a click opens the Reports scene"));
   report_->hide();
-  connect(report_, &QToolButton::clicked, this, [this] { emit sceneAsked("reports"); });
+  connect(report_, &QToolButton::clicked, this, [this] { emit sceneRequested("reports"); });
   bar_.addPermanentWidget(report_);
 }
 
@@ -31,7 +31,7 @@ void StatusLamps::displayBoards() {
   const std::vector<LiveLampState> states = live_.lamps();
   while (boards_.size() < states.size()) {
     auto* lamp = new LiveLamp;
-    connect(lamp, &QToolButton::clicked, this, [this] { emit sceneAsked("live"); });
+    connect(lamp, &QToolButton::clicked, this, [this] { emit sceneRequested("live"); });
     bar_.insertPermanentWidget(static_cast<int>(boards_.size()), lamp);
     boards_.push_back(lamp);
   }
@@ -50,7 +50,7 @@ void StatusLamps::setJobs(const std::vector<SceneJob>& jobs) {
       continue;
     auto* strip = new JobStrip(*job.runner);
     connect(strip, &JobStrip::message, this, &StatusLamps::message);
-    connect(strip, &JobStrip::sceneAsked, this, [this, scene = job.scene] { emit sceneAsked(scene); });
+    connect(strip, &JobStrip::sceneRequested, this, [this, scene = job.scene] { emit sceneRequested(scene); });
     bar_.addPermanentWidget(strip);
     jobs_.push_back({job, strip});
   }

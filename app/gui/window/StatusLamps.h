@@ -21,8 +21,8 @@ struct SceneJob {
   QString scene;
 };
 
-/// What goes on, in the status line of every scene: the boards that stream, record or give alarm, and all jobs. A click
-/// leads to its scene.
+/// What is running, in the status line of every scene: the boards that stream, record or give alarm, and all jobs. A
+/// click leads to its scene.
 class StatusLamps : public QObject {
   Q_OBJECT
 
@@ -39,7 +39,7 @@ public:
 
 signals:
   void message(const QString& sentence);
-  void sceneAsked(const QString& name);
+  void sceneRequested(const QString& name);
 
 private:
   void displayBoards();

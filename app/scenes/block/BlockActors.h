@@ -25,7 +25,7 @@ public:
   explicit BlockActors(vtkRenderer& renderer);
 
   void setMesh(const SensorDesign& design, const Mesh& mesh);
-  /// Displacements already multiplied by the warp factor; `values` at the mesh's nodes, empty at rest.
+  /// Displacements already multiplied by the deformation scale; `values` at the mesh's nodes, empty at rest.
   void show(const Mesh& mesh, const Eigen::Matrix3Xd& drawnDisplacement_mm, const std::vector<double>& values,
             const ColorScale& colors, const DeformationOptions& options);
 

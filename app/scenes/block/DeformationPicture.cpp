@@ -52,7 +52,7 @@ std::vector<std::string> rowWireTitle(int rowWire, bool displaced, double factor
 } // namespace
 
 Picture drawRowWire(const SensorDesign& design, int rowWire, const ElectrodeDisplacements* displacements,
-                    std::optional<double> warpFactor, int width, int height, Theme theme) {
+                    std::optional<double> deformationScale, int width, int height, Theme theme) {
   if (rowWire < 0 || rowWire >= design.rowWires())
     throw DesignError("row-wire " + std::to_string(rowWire) + ": expected 0 to " +
                       std::to_string(design.rowWires() - 1));
@@ -61,7 +61,7 @@ Picture drawRowWire(const SensorDesign& design, int rowWire, const ElectrodeDisp
   const Eigen::Matrix3Xd rest = design.upperElectrodes_mm().middleCols(rowWire * count, count);
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count);
   if (displacements != nullptr) moved = displacements->upper_mm.middleCols(rowWire * count, count);
-  const double factor = warpFactor.value_or(automaticWarpFactor(design, moved));
+  const double factor = deformationScale.value_or(automaticDeformationScale(design, moved));
   Eigen::Matrix3Xd both(3, 2 * count);
   both << rest, rest + factor * moved;
 

@@ -11,9 +11,9 @@ Picture drawDeformation(const DeformationState& state, const DeformationOptions&
                         int height = 800);
 
 /// One row-wire in the block, its electrodes at rest and displaced (Figs. 6 and 7 of the paper); the displacements are
-/// drawn `warpFactor` times as large, automatic where none is given. Without displacements: at rest alone.
+/// drawn `deformationScale` times as large, automatic where none is given. Without displacements: at rest alone.
 Picture drawRowWire(const SensorDesign& design, int rowWire, const ElectrodeDisplacements* displacements,
-                    std::optional<double> warpFactor = {}, int width = 1000, int height = 520,
+                    std::optional<double> deformationScale = {}, int width = 1000, int height = 520,
                     Theme theme = Theme::Light);
 
 } // namespace palp

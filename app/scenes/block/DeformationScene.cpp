@@ -31,7 +31,7 @@ constexpr double kWayAbove_mm = 0.15; ///< of an indenter's way over the face th
 /// Diverging where both signs mean something.
 ColorMap colorMap(const DeformationOptions& options) {
   const Quantity quantity = options.quantity;
-  if (options.lessKept) return ColorMap::Diverging;
+  if (options.lessReference) return ColorMap::Diverging;
   const bool ofOneSign = quantity == Quantity::Displacement || quantity == Quantity::VonMises ||
                          quantity == Quantity::LargestStretch || quantity == Quantity::MiddleStretch ||
                          quantity == Quantity::SmallestStretch || isOfContact(quantity);
@@ -52,7 +52,7 @@ Eigen::Vector3d CutPlane::grip_mm(const Eigen::Vector3d& block_mm) const {
   return place;
 }
 
-double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm) {
+double automaticDeformationScale(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm) {
   if (displacement_mm.cols() == 0) return 1;
   const double largest_mm = displacement_mm.colwise().norm().maxCoeff();
   if (!(largest_mm > 0)) return 1;
@@ -90,7 +90,7 @@ struct DeformationScene::Parts {
   Color forceColor{};
   Color textColor{};
   bool areaNumbers = true;
-  double warpFactor = 1;
+  double deformationScale = 1;
   std::array<double, 2> colorRange{};
   double top_mm = 0; ///< of the block
   int markedNode = -1;
@@ -205,15 +205,15 @@ std::vector<PlacedForce> placedForces(const DeformationState& state, const Block
 
 std::vector<double> shownValues(const DeformationState& state, const DeformationOptions& options) {
   if (nothingColoured(state, options)) return {};
-  return options.lessKept ? quantityValues(options.quantity, *state.fields, *state.kept)
-                          : quantityValues(options.quantity, *state.fields);
+  return options.lessReference ? quantityValues(options.quantity, *state.fields, *state.kept)
+                               : quantityValues(options.quantity, *state.fields);
 }
 
 ColorScale colorScale(const std::vector<double>& values, const DeformationOptions& options) {
   ColorScale colors = fittingScale(options.colorMap.value_or(colorMap(options)), values,
-                                   quantityName(options.quantity) + (!options.lessKept     ? ""
-                                                                     : options.lessUniform ? " - uniform"
-                                                                                           : " - reference"),
+                                   quantityName(options.quantity) + (!options.lessReference ? ""
+                                                                     : options.lessUniform  ? " - uniform"
+                                                                                            : " - reference"),
                                    quantityUnit(options.quantity));
   if (options.fixedRange) {
     colors.low = (*options.fixedRange)[0];
@@ -236,32 +236,33 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   }
   const Eigen::Matrix3Xd atRest = Eigen::Matrix3Xd::Zero(3, state.mesh->nodeCount());
   const Eigen::Matrix3Xd& displacement = state.fields != nullptr ? state.fields->displacement_mm : atRest;
-  parts.warpFactor = options.warpFactor.value_or(automaticWarpFactor(*state.design, displacement));
-  const Eigen::Matrix3Xd drawnDisplacement = parts.warpFactor * displacement;
+  parts.deformationScale = options.deformationScale.value_or(automaticDeformationScale(*state.design, displacement));
+  const Eigen::Matrix3Xd drawnDisplacement = parts.deformationScale * displacement;
   const std::vector<double> values = state.current != nullptr ? std::vector<double>() : shownValues(state, options);
   const ColorScale colors = state.current != nullptr ? currentColors(*state.current) : colorScale(values, options);
   const bool coloured = !values.empty() || (state.current != nullptr && !state.current->lines.empty());
   parts.map.show(state.map, state.design->block_mm);
   parts.colorRange = coloured ? std::array{colors.low, colors.high} : std::array<double, 2>{};
-  parts.current.show(state.current, parts.warpFactor, colors, 2 * options.scale);
+  parts.current.show(state.current, parts.deformationScale, colors, 2 * options.scale);
   parts.block.show(*state.mesh, drawnDisplacement, values, colors, options);
 
   const ElectrodeDisplacements rest = ElectrodeDisplacements::atRest(*state.design);
   const ElectrodeDisplacements& electrodes = state.electrodes != nullptr ? *state.electrodes : rest;
   const Eigen::Matrix3Xd& lower_mm = state.design->lowerFollowsRubber ? electrodes.lower_mm : rest.lower_mm;
-  parts.electrodes.show(*state.design, parts.warpFactor * electrodes.upper_mm, parts.warpFactor * lower_mm, options);
+  parts.electrodes.show(*state.design, parts.deformationScale * electrodes.upper_mm, parts.deformationScale * lower_mm,
+                        options);
   parts.placed = options.forceArrows ? placedForces(state, parts.block, options.cut) : std::vector<PlacedForce>{};
   parts.discs = state.load != nullptr ? state.load->patches : std::vector<PatchLoad>{};
   parts.drawnAs = options;
   parts.areas = state.load != nullptr ? state.load->areas.size() : 0;
   parts.block.showDiscs(parts.discs, options);
-  parts.indenters.show(state, parts.warpFactor);
+  parts.indenters.show(state, parts.deformationScale);
   parts.mmPerN = palp::arrowScale_mmPerN(parts.placed, 0.3 * state.design->block_mm.maxCoeff());
   parts.marks = extremeMarks(values, parts.block.drawn_mm(), options);
   Eigen::Matrix3Xd extremes(3, static_cast<Eigen::Index>(parts.marks.size()));
   for (std::size_t k = 0; k < parts.marks.size(); ++k) {
     extremes.col(static_cast<Eigen::Index>(k)) = parts.marks[k].place_mm;
-    parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the words beside their point
+    parts.marks[k].place_mm.z() += 0.06 * state.design->block_mm.maxCoeff(); // the text next to its point
   }
   parts.extremes.set(extremes, ink.text);
   parts.extremes.setVisible(!parts.marks.empty());
@@ -273,7 +274,7 @@ void DeformationScene::show(const DeformationState& state, const DeformationOpti
   parts.showLine(options, ink.selection);
   parts.top_mm = state.design->block_mm.z();
   parts.showWay(options.way_mm);
-  parts.overlay->lines = sceneWords(state, options, parts.warpFactor);
+  parts.overlay->lines = sceneWords(state, options, parts.deformationScale);
   parts.overlay->legend = coloured ? std::optional(colors) : std::nullopt;
   if (state.map != nullptr) parts.overlay->legend = state.map->colors;
   parts.overlay->triad = true;
@@ -294,7 +295,7 @@ void DeformationScene::resetCamera(const SensorDesign& design, double aspect, co
   Eigen::Matrix3Xd points(3, 9);
   points << boxCorners(design.block_mm), 0.5 * design.block_mm;
   points(2, 8) = design.block_mm.z() + 0.3 * design.block_mm.maxCoeff();
-  // Straight views fill the picture to its corners, where words and legend stand.
+  // Straight views fill the picture to its corners, where text and legend are drawn.
   const double more = direction.normalized().cwiseAbs().maxCoeff() > 1 - 1e-9 ? 0.07 : 0;
   fitCamera(*parts_->renderer, points, direction, aspect,
             {0.03, 0.03 + more + legendShare.value_or(std::min(0.12 / aspect * 1.5, 0.25)), 0.04, 0.08 + more});
@@ -310,8 +311,8 @@ void DeformationScene::setTextScale(double scale) {
   parts_->overlay->Modified();
 }
 
-double DeformationScene::warpFactor() const {
-  return parts_->warpFactor;
+double DeformationScene::deformationScale() const {
+  return parts_->deformationScale;
 }
 
 std::array<double, 2> DeformationScene::colorRange() const {

@@ -40,7 +40,8 @@ struct CutPlane {
 /// What is drawn, and how.
 struct DeformationOptions {
   Quantity quantity = Quantity::Displacement;
-  std::optional<double> warpFactor; ///< of the drawn displacements; none: automatic, 1, 2 or 5 times a power of ten
+  std::optional<double>
+      deformationScale; ///< of the drawn displacements; none: automatic, 1, 2 or 5 times a power of ten
   bool undeformedGhost = true;
   bool electrodes = true;
   bool forceArrows = true;
@@ -49,7 +50,7 @@ struct DeformationOptions {
   double opacity = 0.82; ///< of the coloured surface, while the electrodes show through it
   std::optional<CutPlane> cut;
   bool cutGrip = false;                                  ///< draws where the cut is taken by the mouse
-  bool lessKept = false;                                 ///< colours by the difference to another answer
+  bool lessReference = false;                            ///< colours by the difference to another answer
   bool lessUniform = false;                              ///< that is the touch's own design, its forces uniform
   bool extremes = false;                                 ///< marks the largest and the smallest value
   std::optional<ColorMap> colorMap;                      ///< none: as the quantity asks for
@@ -60,7 +61,7 @@ struct DeformationOptions {
   std::optional<std::array<int, 2>> litCell;             ///< row-wire, column-wire whose electrodes light up
   Theme theme = Theme::Light;
   double scale = 1;      ///< of text and lines
-  bool fullLoad = false; ///< says "100 % of the load" too, as in a film
+  bool fullLoad = false; ///< shows "100 % of the load" too, as in a film
 };
 
 /// The load step to draw: what it was computed from and what came out. All but design and mesh may be null (at rest).
@@ -72,11 +73,11 @@ struct DeformationState {
   const LoadCase* load = nullptr;
   double loadFraction = 1;
   std::vector<IndenterState> indenters{}; ///< what the load's indenters do; empty at rest
-  // Where the difference to a kept design is shown; null while that is not there.
-  const SensorDesign* keptDesign = nullptr;
+  // For the difference from a reference design; null until that is available.
+  const SensorDesign* referenceDesign = nullptr;
   const LoadCase* keptLoad = nullptr;
   const NodalFields* kept = nullptr; ///< its fields at the nodes of `mesh`
-  /// The current's way in this state: drawn in a block without colours.
+  /// The current paths in this state: drawn in a block without colours.
   const CurrentLines* current = nullptr;
   /// Of the block at rest: drawn over its top face.
   const FaceMap* map = nullptr;
@@ -87,7 +88,7 @@ std::array<double, 2> quantityRange(const DeformationOptions& options, const std
 
 /// The largest 1, 2 or 5 times a power of ten that keeps the drawn displacements under a fifth of the block's thinnest
 /// side; at least 1.
-double automaticWarpFactor(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
+double automaticDeformationScale(const SensorDesign& design, const Eigen::Matrix3Xd& displacement_mm);
 
 /// From the front, above and the left.
 const Eigen::Vector3d kFirstLook(0.45, 1.0, -0.75);
@@ -101,7 +102,7 @@ public:
   [[nodiscard]] vtkRenderer* renderer() const;
   /// Draws the state; the mesh's surface is found again only where `meshChanged`.
   void show(const DeformationState& state, const DeformationOptions& options, bool meshChanged);
-  /// Looks at the whole block from the front, above and the left, in a view `aspect` times as wide as high.
+  /// Looks at the complete block from the front, above and the left, in a view `aspect` times as wide as high.
   void resetCamera(const SensorDesign& design, double aspect);
   /// Looks at it along a direction; the legend takes this share of the width.
   void resetCamera(const SensorDesign& design, double aspect, const Eigen::Vector3d& direction,
@@ -112,14 +113,14 @@ public:
 
   /// Of words and legend alone, from now on; show() sets it to the scale of its options.
   void setTextScale(double scale);
-  [[nodiscard]] double warpFactor() const;
+  [[nodiscard]] double deformationScale() const;
   [[nodiscard]] std::array<double, 2> colorRange() const; ///< as drawn last
   /// The mesh node drawn nearest to a point of the scene [mm, warped]; -1 without a mesh.
   [[nodiscard]] int nearestNode(const Eigen::Vector3d& drawn_mm) const;
   /// Marks a mesh node; -1 marks none.
   void markNode(int node);
 
-  /// What the balls stand for that have no words of their own in the picture, at their places.
+  /// The balls without text in the picture: what each marks, with its position.
   [[nodiscard]] std::vector<PlacedText> tips() const;
 
   /// The arrows as drawn, and their scale.

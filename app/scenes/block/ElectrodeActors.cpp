@@ -18,7 +18,7 @@ namespace {
 constexpr double kRadius_mm = 0.28;
 constexpr double kWireRadius_mm = 0.07;
 
-/// One line a wire through its electrodes; electrode e of wire w is point w * perWire + e.
+/// One line per wire through its electrodes; electrode e of wire w is point w * perWire + e.
 std::vector<std::vector<int>> wires(int count, int perWire) {
   std::vector<std::vector<int>> lines(static_cast<std::size_t>(count),
                                       std::vector<int>(static_cast<std::size_t>(perWire)));
@@ -28,7 +28,7 @@ std::vector<std::vector<int>> wires(int count, int perWire) {
   return lines;
 }
 
-/// Those of the places that are not cut away. A sphere that the plane goes through stays whole: displacements of a
+/// Those of the places that are not cut away. A sphere that the plane goes through stays complete: displacements of a
 /// rounding error would otherwise take single ones out of a row that lies in the plane.
 Eigen::Matrix3Xd kept(const Eigen::Matrix3Xd& places_mm, const std::optional<CutPlane>& cut) {
   if (!cut) return places_mm;

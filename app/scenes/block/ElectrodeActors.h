@@ -27,7 +27,7 @@ class ElectrodeActors {
 public:
   explicit ElectrodeActors(vtkRenderer& renderer);
 
-  /// Drawn displacements 3 x electrodes, already multiplied by the warp factor.
+  /// Drawn displacements 3 x electrodes, already multiplied by the deformation scale.
   void show(const SensorDesign& design, const Eigen::Matrix3Xd& upper_mm, const Eigen::Matrix3Xd& lower_mm,
             const DeformationOptions& options);
   /// The electrodes of the chosen cell as drawn, each with what it is.

@@ -43,11 +43,11 @@ public:
   [[nodiscard]] vtkRenderer* renderer() const;
   /// The block, its wires and areas; the arrows stay.
   void showSensor(const SensorDesign& design, const LiveSceneOptions& options);
-  /// Arrows to scale; `stale` draws them grey: the last known, while there are no forces. `lines` stand at the top
+  /// Arrows to scale; `stale` draws them grey: the last known, while there are no forces. `lines` are shown at the top
   /// left, the first in bold. `truth_mm`: where a simulated indenter truly touches, as a cross in a circle.
   void showForces(const std::vector<LiveArrow>& arrows, bool stale, const std::vector<std::string>& lines,
                   const std::optional<Eigen::Vector2d>& truth_mm = {});
-  /// Where a pixel of the view (from the lower left) meets the plane of the top face [mm]; none beside it.
+  /// Where a pixel of the view (from the lower left) meets the plane of the top face [mm]; nullopt outside it.
   [[nodiscard]] std::optional<Eigen::Vector2d> topPlace(double x_px, double y_px) const;
   void resetCamera(double aspect, const Eigen::Vector3d& direction = liveDirection);
 

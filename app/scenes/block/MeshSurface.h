@@ -46,7 +46,7 @@ private:
 /// The same for one question.
 TopPoint topPoint(const Mesh& mesh, const Eigen::Vector2d& xy_mm);
 
-/// Corners and points along the border of each load area, `steps` a side, closed; one list an area.
+/// Corners and points along the border of each load area, `steps` a side, closed; one list for each area.
 std::vector<std::vector<TopPoint>> areaBorders(const TopFace& top, const SensorDesign& design, int steps);
 
 } // namespace palp

@@ -45,7 +45,7 @@ std::vector<double> legendTicks(const ColorScale& colors, double height_px, doub
   const int most = std::clamp(static_cast<int>(height_px / (28 * scale)), 2, 8);
   if (colors.logarithmic) return decadeTicks(colors.low, colors.high, most);
   std::vector<double> ticks = roundTicks(colors.low, colors.high, most);
-  // One number says no scale: a low legend gets two or three, closer together.
+  // One number gives no scale: a low legend gets two or three, closer together.
   const int closest = static_cast<int>(height_px / (16 * scale));
   for (int more = most + 1; ticks.size() < 3 && more <= closest; ++more)
     ticks = roundTicks(colors.low, colors.high, more);
@@ -155,7 +155,7 @@ std::vector<Overlay::WordBox> Overlay::wordBoxes(vtkContext2D& painter) {
         box->y = other->y + (kWordHeight_px + 1) * scale;
         moved = true;
       }
-  // What was driven into the lines goes beside them, or under them and under other words where there is no room.
+  // Labels on the lines move next to them, or below them and below other text where there is no room.
   for (WordBox& box : boxes) {
     const double beside = kMargin_px * scale + widest_ + 12 * scale;
     if (box.y + 0.5 * kWordHeight_px * scale <= linesEnd() || box.x >= beside - 4 * scale) continue;
@@ -182,7 +182,7 @@ double Overlay::legendBar_px() {
   return std::min(0.55 * GetScene()->GetSceneHeight(), 320 * scale);
 }
 
-/// Of the next line: a low view has its legend beside the lines.
+/// Of the next line: a low view has its legend next to the lines.
 double Overlay::lineRoom_px(vtkContext2D& painter) {
   const double margin = kMargin_px * scale, whole = GetScene()->GetSceneWidth() - 2 * margin;
   if (!legend) return whole;

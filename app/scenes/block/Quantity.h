@@ -25,7 +25,7 @@ enum class Quantity {
   LargestStretch, ///< principal stretches
   MiddleStretch,
   SmallestStretch,
-  ContactPressure, ///< of indenters: force an area at rest, along -z
+  ContactPressure, ///< of indenters: force per area at rest, along -z
   ContactShear,    ///< the same across z
   FrictionUsed     ///< shear over pressure: what slips is at the coefficient of friction, what sticks below it
 };

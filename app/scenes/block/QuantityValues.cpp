@@ -8,7 +8,7 @@ std::vector<double> listOf(const Eigen::VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
-/// Where the pressure is a thousandth of the largest or less, nothing touches that a quotient says anything of.
+/// Below a thousandth of the largest pressure a quotient has no meaning.
 std::vector<double> frictionUsed(const NodalFields& fields) {
   std::vector<double> shares(static_cast<std::size_t>(fields.displacement_mm.cols()), 0.0);
   const Eigen::Matrix3Xd& traction = fields.contactTraction_MPa;

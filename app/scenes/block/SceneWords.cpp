@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-std::string warpText(double factor) {
+std::string scaleText(double factor) {
   return factor == 1 ? "displacements drawn in true size"
                      : "displacements drawn " + withDigits(factor, 6) + " times as large";
 }
@@ -58,8 +58,8 @@ std::vector<std::string> differenceLines(const DeformationState& state, const De
             quantityName(options.quantity) + " of the touch minus that of the uniform load"};
   std::vector<std::string> lines{"Difference from the reference design: " + quantityName(options.quantity) +
                                  " of this design minus that of the reference"};
-  const Eigen::Vector3d &now = state.design->block_mm, &kept = state.keptDesign->block_mm;
-  if (onlyWiresDiffer(*state.design, *state.keptDesign))
+  const Eigen::Vector3d &now = state.design->block_mm, &kept = state.referenceDesign->block_mm;
+  if (onlyWiresDiffer(*state.design, *state.referenceDesign))
     lines.emplace_back("the designs differ only in wires and resistances: the rest shown here comes from their meshes");
   if (now == kept) return lines;
   lines.push_back("blocks of two sizes, " + sizeText(now) + " and reference " + sizeText(kept) +
@@ -78,7 +78,7 @@ std::vector<std::string> differenceLines(const DeformationState& state, const De
 } // namespace
 
 bool nothingColoured(const DeformationState& state, const DeformationOptions& options) {
-  if (state.fields == nullptr || (options.lessKept && state.kept == nullptr)) return true;
+  if (state.fields == nullptr || (options.lessReference && state.kept == nullptr)) return true;
   return unloaded(state.fields) && !options.fixedRange;
 }
 
@@ -88,13 +88,13 @@ std::vector<std::string> sceneWords(const DeformationState& state, const Deforma
     std::vector<std::string> lines{
         "Current of row-wire " + std::to_string(state.current->rowWire) + ", column-wire " +
             std::to_string(state.current->columnWire),
-        "each line: " + withDigits(100 * state.current->current_A, 2) + " % of the driven current", warpText(warp)};
+        "each line: " + withDigits(100 * state.current->current_A, 2) + " % of the driven current", scaleText(warp)};
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }
-  if (options.lessKept && state.fields != nullptr) {
+  if (options.lessReference && state.fields != nullptr) {
     std::vector<std::string> lines = differenceLines(state, options);
-    lines.push_back(warpText(warp));
+    lines.push_back(scaleText(warp));
     if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
     return lines;
   }
@@ -102,7 +102,7 @@ std::vector<std::string> sceneWords(const DeformationState& state, const Deforma
   if (unloaded(state.fields) && !(state.fields != nullptr && options.fixedRange))
     return {"Block at rest", blockText(state)};
   std::vector<std::string> lines{"Deformation, coloured by " + quantityName(options.quantity),
-                                 blockText(state) + ", " + warpText(warp)};
+                                 blockText(state) + ", " + scaleText(warp)};
   if (state.loadFraction != 1 || options.fullLoad) lines.push_back(fractionText(state.loadFraction));
   return lines;
 }

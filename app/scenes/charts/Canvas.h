@@ -38,7 +38,7 @@ public:
   [[nodiscard]] int height() const { return height_; }
 
   void clear(const Color& color);
-  /// A rectangle, its edges on the nearest whole pixels.
+  /// A rectangle, its edges rounded to pixels.
   virtual void fill(double left, double bottom, double right, double top, const Color& color);
   /// The frame of a rectangle, `thickness` pixels to its inside.
   void frame(double left, double bottom, double right, double top, double thickness, const Color& color);

@@ -96,7 +96,7 @@ void setTicks(vtkAxis& axis, const AxisMarks& ticks, bool logarithmic) {
   axis.SetCustomTickPositions(positions, labels);
 }
 
-/// The size of a text that stands centred over a plot: smaller where a picture of this length would cut it, yet never
+/// The size of a text that is centred over a plot: smaller where a picture of this length would cut it, yet never
 /// so small that nobody reads it.
 double fittingSize(const std::string& text, double size_px, double length_px, double scale) {
   constexpr double kLetterShare = 0.58; // mean width of a letter, of the size

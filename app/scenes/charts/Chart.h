@@ -13,7 +13,7 @@ class vtkChartXY;
 
 namespace palp {
 
-/// One curve or cloud of a chart; pairs that are no numbers, or not above 0 on a logarithmic axis, are left out.
+/// One curve or cloud of a chart; pairs that are not numbers, or not above 0 on a logarithmic axis, are left out.
 struct ChartSeries {
   enum class Style { Line, Points, LineAndPoints };
 

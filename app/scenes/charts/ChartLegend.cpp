@@ -11,7 +11,7 @@ namespace {
 constexpr double kNameLetter_px = 7.5;
 constexpr double kNameLine_px = 21;
 constexpr double kFrame_px = 48; ///< symbol and padding
-constexpr double kAxes_px = 90;  ///< of the chart that are no plot, each way
+constexpr double kAxes_px = 90;  ///< of the chart outside the plot, in each direction
 
 } // namespace
 

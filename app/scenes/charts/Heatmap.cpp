@@ -30,7 +30,7 @@ Color mapped(vtkLookupTable& table, double value) {
   return color;
 }
 
-/// What stands at a cell of an axis.
+/// The label at a cell of an axis.
 std::string tick(const std::vector<std::string>& words, int cell) {
   return words.empty() ? std::to_string(cell) : words[static_cast<std::size_t>(cell)];
 }
@@ -84,7 +84,7 @@ void Heatmap::paint(Canvas& canvas) {
 }
 
 void Heatmap::paintCells(Canvas& canvas, vtkLookupTable& table) const {
-  // All edges on whole pixels, so that all gaps are equally wide.
+  // All edges on pixels, so that all gaps are equally wide.
   const double gap = std::min(cellWidth_, cellHeight_) > 6 * scale ? std::round(scale) : 0;
   for (Eigen::Index row = 0; row < spec.values.rows(); ++row)
     for (Eigen::Index column = 0; column < spec.values.cols(); ++column)
@@ -164,7 +164,7 @@ std::optional<std::array<double, 4>> Heatmap::cellBox(const std::array<int, 2>& 
 
 std::string Heatmap::svg(int width, int height) const {
   requireDrawable(width, height);
-  Heatmap copy = *this; // the cells that cellAt knows stay those of the view
+  Heatmap copy = *this; // the cells of cellAt stay those of the view
   SvgCanvas canvas(width, height, copy.written_);
   copy.paint(canvas);
   return canvas.svg();
@@ -174,7 +174,7 @@ Picture Heatmap::picture(int width, int height) const {
   requireDrawable(width, height);
   std::vector<std::uint8_t> bgra(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Heatmap(*this).paint(bgra.data(), 4 * static_cast<std::size_t>(width), width,
-                       height); // of a copy: the cells that cellAt knows stay those of the view
+                       height); // of a copy: the cells of cellAt stay those of the view
   return pictureOfBgra(bgra, width, height);
 }
 

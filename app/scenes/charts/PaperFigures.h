@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// The load of Figs. 4 and 7: the paper says "a 3-D force on the first area" and gives no number; this is ours.
+/// The load of Figs. 4 and 7: the paper has "a 3-D force on the first area" without a number; this is ours.
 LoadCase paperFigureLoad();
 
 /// Table 1 and Fig. 12 as charts, Figs. 4, 6 and 7 from the touch (advanced to the displacements), Figs. 8-11 and 13-16

@@ -26,7 +26,7 @@ ChartSeries::Style style(ReportCurve::Style style) {
 
 constexpr int kMapWidth_px = 760, kMapAround_px = 230, kMapBeside_px = 90; // with axes, title and legend
 
-/// What stands at the cells of a map along one side.
+/// The labels at the cells of a map along one side.
 std::vector<std::string> places(double low_mm, double high_mm, Eigen::Index count) {
   std::vector<std::string> words;
   for (Eigen::Index i = 0; i < count; ++i)

@@ -25,7 +25,7 @@ std::string escaped(const std::string& text) {
 }
 
 bool isBold(const vtkTextProperty& text) {
-  auto& style = const_cast<vtkTextProperty&>(text); // VTK knows no const; it is only read
+  auto& style = const_cast<vtkTextProperty&>(text); // VTK has no const; it is only read
   const char* file = style.GetFontFile();
   return style.GetBold() != 0 || (file != nullptr && std::string(file).find("Bold") != std::string::npos);
 }
@@ -41,7 +41,7 @@ void SvgCanvas::fill(double left, double bottom, double right, double top, const
          << "\" fill=\"" << hexOf(color.data()) << "\"/>\n";
 }
 
-/// Letters of the file's own viewer, about the same place: SVG's baseline stands for VTK's three heights.
+/// Text drawn by the viewer at about the same position: SVG's baseline replaces VTK's three heights.
 void SvgCanvas::words(double x, double y, const std::string& text) {
   vtkTextProperty& style = textStyle();
   constexpr std::array<const char*, 3> kAnchors{"start", "middle", "end"};

@@ -154,7 +154,7 @@ TEST_F(Baseline, SeesWhatIsMissingOrAnother) {
   EXPECT_FALSE(
       same("another quantity", whole, with([](auto& options) { options.quantity = Quantity::DisplacementZ; })));
   EXPECT_FALSE(same("another theme", whole, with([](auto& options) { options.theme = Theme::Dark; })));
-  EXPECT_FALSE(same("another warp factor", whole, with([](auto& options) { options.warpFactor = 1; })));
+  EXPECT_FALSE(same("another warp factor", whole, with([](auto& options) { options.deformationScale = 1; })));
 
   const Picture cells = drawHeatmap(heatmap(), kWidth_px, kHeight_px);
   HeatmapSpec other = heatmap();

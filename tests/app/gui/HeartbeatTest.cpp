@@ -144,7 +144,7 @@ TEST_F(Heartbeat, BeatsUnderTheConductionField) {
   expectFree(
       "the current is followed", [&] { QTest::mouseClick(&way, Qt::LeftButton, {}, QPoint(8, way.height() / 2)); },
       complete);
-  ASSERT_TRUE(workbench.project().view.currentWay);
+  ASSERT_TRUE(workbench.project().view.currentPaths);
   expectFree(
       "the law is switched", [&] { choose("lawBar", Qt::Key_Up); }, complete);
   expectFree(
@@ -169,7 +169,7 @@ TEST_F(Heartbeat, BeatsWhileReporting) {
   find<QLineEdit>("reportFolder").setText(folder.path());
   auto& run = find<QPushButton>("runReport");
   auto& kinds = find<QComboBox>("reportKind");
-  kinds.setCurrentIndex(kinds.findText("networks"));
+  kinds.setCurrentIndex(kinds.findText("Networks"));
   ASSERT_EQ(kinds.currentText(), "networks");
   expectFree(
       "reporting", [&] { click("runReport"); }, [waited = 0]() mutable { return ++waited > 100; });

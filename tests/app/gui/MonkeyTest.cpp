@@ -260,7 +260,7 @@ protected:
       if (!view.isVisible() || touch.electrodes() == nullptr) continue;
       const ResistanceKind kind =
           std::string(name) == "heatmap" ? ResistanceKind::RelativeChange : workbench.project().view.resistance;
-      if (kind == ResistanceKind::LessKept && workbench.comparable()) continue; // of two touches
+      if (kind == ResistanceKind::LessReference && workbench.comparable()) continue; // of two touches
       const auto resistances = workbench.resistances();
       if (!resistances) continue; // under the field they may have been stopped
       EXPECT_EQ(view.heatmap().values, resistanceHeatmap(*resistances, kind).values) << name << " " << where;

@@ -177,9 +177,9 @@ TEST(Deformation, WarpsByARoundFactorThatNeverShrinks) {
   const SensorDesign design = paperDesign();
   const Eigen::Matrix3Xd small = Eigen::Matrix3Xd::Constant(3, 4, 0.01);
   const Eigen::Matrix3Xd large = Eigen::Matrix3Xd::Constant(3, 4, 3);
-  EXPECT_EQ(automaticWarpFactor(design, small), 50);
-  EXPECT_EQ(automaticWarpFactor(design, large), 1);
-  EXPECT_EQ(automaticWarpFactor(design, Eigen::Matrix3Xd::Zero(3, 4)), 1);
+  EXPECT_EQ(automaticDeformationScale(design, small), 50);
+  EXPECT_EQ(automaticDeformationScale(design, large), 1);
+  EXPECT_EQ(automaticDeformationScale(design, Eigen::Matrix3Xd::Zero(3, 4)), 1);
 }
 
 TEST(Canvas, FillsWholePixelsFromTheLowerLeftAndNothingOutside) {

@@ -4,6 +4,7 @@
 #include "app/gui/design/ProgressWords.h"
 #include "app/gui/design/map/MapWork.h"
 #include "app/gui/views/HeatmapView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "app/study/Median.h"
@@ -79,17 +80,14 @@ DesignMap::DesignMap(Workbench& workbench, QWidget* parent) : QWidget(parent), w
     connect(box, &QDoubleSpinBox::valueChanged, this, &DesignMap::readSettings);
   connect(places_, &QSpinBox::valueChanged, this, &DesignMap::readSettings);
   connect(noise_, &QDoubleSpinBox::valueChanged, this, [this](double percent) {
-    Project next = workbench_.project();
-    next.view.resistanceNoise = percent / 100;
-    workbench_.edit(tr("Change the noise of the resistances"), next);
+    workbench_.edit(tr("Change the noise of the resistances"),
+                    [&](Project& next) { next.view.resistanceNoise = percent / 100; });
   });
   connect(quantity_, &QComboBox::activated, this, &DesignMap::chooseQuantity);
   connect(onBlock_, &QCheckBox::toggled, this, [this](bool on) {
-    Project next = workbench_.project();
-    next.view.mapOnBlock = on;
-    workbench_.edit(tr("Draw the map on the block"), next);
+    workbench_.edit(tr("Draw the map on the block"), [&](Project& next) { next.view.mapOnBlock = on; });
   });
-  sayProgress(runner_, *words_);
+  showProgress(runner_, *words_);
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) { showWords(*words_, sentence); });
   connect(&runner_, &JobRunner::started, this, &DesignMap::displayProject);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
@@ -112,9 +110,8 @@ void DesignMap::build() {
   auto* form = new QFormLayout(side);
   form->setContentsMargins(0, 0, 0, 0);
   form->setVerticalSpacing(3); // all of it is seen where the window is low
-  start_ = new QPushButton(tr("Map the resolution"));
-  start_->setObjectName("mapResolution");
-  start_->setToolTip(
+  start_ = pushButton(
+      tr("Map the resolution"), "mapResolution",
       tr("Solves once per resistance; changing size, force or noise afterwards needs no new solve. Esc cancels."));
   form->addRow(start_);
   quantity_ = new QComboBox;
@@ -152,26 +149,16 @@ void DesignMap::buildTouch(QFormLayout& form) {
   for (const IndenterShape shape : kMappedShapes) shape_->addItem(QString::fromStdString(shapeName(shape)));
   shape_->setToolTip(tr("Shape of the indenter that the map assumes"));
   const auto number = [](const char* name, const QString& unit, double low, double high, const QString& tip) {
-    auto* box = new NumberBox;
-    box->setObjectName(name);
-    box->setRange(low, high);
-    box->setDecimals(3);
-    box->setSingleStep(0.5);
-    box->setSuffix(unit);
-    box->setKeyboardTracking(false);
-    box->setToolTip(tip);
+    auto* box = numberBox(name, {.low = low, .high = high, .decimals = 3, .step = 0.5, .unit = unit}, tip);
     return box;
   };
   const auto pair = [&form](const QString& label, QWidget* first, QWidget* second) {
-    auto* both = new QHBoxLayout;
-    both->addWidget(first, 1);
-    both->addWidget(second, 1);
-    form.addRow(label, both);
+    form.addRow(label, inRow({{first, 1}, {second, 1}}));
   };
   radius_ = number("mapRadius", tr(" mm"), 0.05, 1e4, tr("Radius of the sphere, the pin or the punch"));
   force_ = number("mapForce", tr(" N"), 0.001, 1e4,
                   tr("Force of the touch; the deviation of the position is inversely proportional to it"));
-  noise_ = new PercentBox;
+  noise_ = new RatioBox(100, "%");
   noise_->setObjectName("mapNoise");
   noise_->setAccessibleName(tr("Noise of the resistances"));
   noise_->setRange(0.00001, 10);
@@ -179,20 +166,14 @@ void DesignMap::buildTouch(QFormLayout& form) {
   noise_->setPrefix(tr("Noise "));
   noise_->setKeyboardTracking(false);
   noise_->setToolTip(tr("Relative noise of each reading, as in \"Mesh and noise floor\""));
-  places_ = new WholeBox;
-  places_->setObjectName("mapPlaces");
-  places_->setRange(3, kMostMapPlaces);
-  places_->setKeyboardTracking(false);
-  places_->setToolTip(
+  places_ = wholeBox(
+      "mapPlaces", {.low = 3, .high = kMostMapPlaces},
       tr("Number of positions along the shorter side of the face; a margin of a tenth of the side is left out"));
-  onBlock_ = new QCheckBox(tr("Also on the block"));
-  onBlock_->setObjectName("mapOnBlock");
+  onBlock_ = checkBox(tr("Also on the block"), "mapOnBlock");
   pair(tr("Touch"), shape_, radius_);
   pair(tr("Force"), force_, noise_);
-  law_ = new QComboBox;
-  law_->setObjectName("mapLaw");
+  law_ = choiceBox("mapLaw", {}, tr("Law and read-out of the resistances, for this map only"));
   law_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  law_->setToolTip(tr("Law and read-out of the resistances, for this map only"));
   form.addRow(tr("Law, read-out"), law_);
   pair(tr("Positions"), places_, onBlock_);
 }
@@ -235,9 +216,9 @@ std::size_t DesignMap::quantity() const {
 }
 
 void DesignMap::chooseQuantity(int quantity) {
-  Project next = workbench_.project();
-  next.view.mapQuantity = mapQuantities()[static_cast<std::size_t>(quantity)].file;
-  workbench_.edit(tr("Select the quantity of the map"), next);
+  workbench_.edit(tr("Select the quantity of the map"), [&](Project& next) {
+    next.view.mapQuantity = mapQuantities()[static_cast<std::size_t>(quantity)].file;
+  });
 }
 
 void DesignMap::readSettings() {
@@ -322,9 +303,7 @@ void DesignMap::run() {
         return [this, found] {
           if (isVisible()) basis_ = found.basis;
           shown_.reset(); // also where it is what was found before
-          Project next = workbench_.project();
-          next.studies.mapped = found.map;
-          workbench_.edit(tr("Map the resolution"), next);
+          workbench_.edit(tr("Map the resolution"), [&](Project& next) { next.studies.mapped = found.map; });
         };
       },
       JobRunner::Loss::Work);

@@ -17,7 +17,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kNowhere = -1; ///< stands for what is not a number, which JSON cannot say
+constexpr double kNowhere = -1; ///< in files, for not a number, which JSON cannot represent
 
 /// To six digits: a project holds thousands of them.
 double kept(double value) {
@@ -66,7 +66,7 @@ std::string titleOf(const MappedResolution& map, const MapQuantity& quantity) {
 SensorDesign mappedDesign(const SensorDesign& design, const MapSettings& settings) {
   SensorDesign mapped = design;
   if (settings.law == "pairs") {
-    if (design.field() != nullptr) mapped.resistance = PairsLaw{}; // its rate is no matter in ln R
+    if (design.field() != nullptr) mapped.resistance = PairsLaw{}; // its rate does not matter in ln R
   } else if (const auto readout = kReadouts.find(settings.law)) {
     FieldLaw law = design.field() != nullptr ? *design.field() : FieldLaw{};
     law.readout = *readout;

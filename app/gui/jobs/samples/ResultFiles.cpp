@@ -39,7 +39,7 @@ std::string rowsInWords(const DecoderInput& input) {
   return words;
 }
 
-/// What a network says of itself; it is not tried yet.
+/// What the network's file contains; it is not evaluated yet.
 NetworkFit ofDecoder(Decoder decoder, const NetworkSamples& samples) {
   NetworkFit fit;
   fit.decoder = std::move(decoder);
@@ -102,7 +102,7 @@ void saveName(const fs::path& file, const QString& name) {
     writeFile(file, name.toStdString() + "\n", true);
 }
 
-/// Those that are there stay as they are but for their names: a network does not change.
+/// Existing files stay as they are except for their names: a network does not change.
 void saveKept(const fs::path& folder, const NetworkResults& results) {
   std::error_code ignored;
   if (!results.kept.empty()) fs::create_directories(folder, ignored); // else the first file cannot be written
@@ -115,10 +115,10 @@ void saveKept(const fs::path& folder, const NetworkResults& results) {
   }
 }
 
-/// Only what was taken away by hand; whatever else lies there may be all that is left of it.
-void removeTakenAway(const fs::path& folder, const NetworkResults& results) {
+/// Only what the user removed; any other file may be the only copy.
+void deleteRemoved(const fs::path& folder, const NetworkResults& results) {
   std::error_code ignored;
-  for (const QDateTime& made : results.takenAway) {
+  for (const QDateTime& made : results.removed) {
     const auto is = [&](const auto& fit) { return fit->made == made; };
     if (std::any_of(results.kept.begin(), results.kept.end(), is)) continue; // opened again
     for (const char* end : {kSettings, kDecoder, kName}) fs::remove(folder / (stemOf(made) + end), ignored);
@@ -150,7 +150,7 @@ void openOneKept(const fs::path& folder, const std::string& stem, OpenedResults&
   try {
     QFile settings(QString::fromStdString((folder / (stem + kSettings)).string()));
     if (settings.open(QIODevice::ReadOnly)) fit->settings = parseNetwork(settings.readAll(), settings.fileName());
-  } catch (const Error& error) { // the network says most of them itself
+  } catch (const Error& error) { // the network's file has most of them
     opened.problems.emplace_back(error.what());
   }
   tryOn(*fit, *results.samples, stop);
@@ -217,7 +217,7 @@ void openSamples(const fs::path& folder, const SensorDesign& design, OpenedResul
     opened.results.samples = std::make_shared<const NetworkSamples>(openTheseSampleFiles({file}, design, stop));
     opened.problems.back() += "; every fifth sample of " + file.filename().string() +
                               " is used for testing, although the earlier networks were trained with it";
-  } catch (const Error&) { // said already: it is the first that is read
+  } catch (const Error&) { // reported already: it is read first
   }
 }
 
@@ -252,7 +252,7 @@ std::vector<std::string> saveResults(const fs::path& folder, const NetworkResult
   writing.commit();
   if (!results.fit) fs::remove(folder / kNetwork, failed);
   if (!sweeps) fs::remove(folder / kSweeps, failed);
-  removeTakenAway(folder / kKept, results);
+  deleteRemoved(folder / kKept, results);
   return said;
 }
 

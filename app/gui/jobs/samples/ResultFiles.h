@@ -24,7 +24,7 @@ std::set<std::filesystem::path> resultFiles(const std::filesystem::path& folder)
 
 /// Samples, networks, sweep and comparison of a design in a folder of their own, which is made: resultFiles() and, in
 /// networks, those that can be gone back to, each with the settings it was trained with. All of it or, where it cannot
-/// be written, nothing of what was there is touched. Networks leave the folder only where they were taken away, and of
+/// be written, no existing file is changed. Networks leave the folder only where the user removed them, and of
 /// resultFiles() only `ours` are replaced, whose content is held or was written before: others that hold something else
 /// are kept under the name of this moment. Returns a sentence for each of them. Throws Error.
 std::vector<std::string> saveResults(const std::filesystem::path& folder, const NetworkResults& results,

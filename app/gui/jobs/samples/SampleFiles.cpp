@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kHeldOut = 5; ///< one sample of so many tests, where no set of its own does
+constexpr int kHeldOut = 5; ///< one sample in this many is for testing, where there is no test set
 
 /// Shards of one request, and the file that is named where they do not fit.
 struct Shards {
@@ -98,7 +98,7 @@ void requireSamples(const fs::path& file) {
     if (!(line + source.readAll()).contains("\"palp_project\"")) return;
     throw Error(QObject::tr("%1: this is a project, not samples; use File > Open").arg(name).toStdString());
   }
-  while (line.startsWith('#') && !source.atEnd()) line = source.readLine(); // what a table of ours says of itself
+  while (line.startsWith('#') && !source.atEnd()) line = source.readLine(); // the head of a table of Palp
   throw Error(QObject::tr("%1: not a Palp sample file (it starts with \"%2\", expected \"# palp_samples\"). Use palp "
                           "import to convert your own measurements.")
                   .arg(name, QString::fromUtf8(line).trimmed().left(kShown))
@@ -108,7 +108,7 @@ void requireSamples(const fs::path& file) {
 namespace {
 
 /// Samples of one request, shard by shard, and of another one where there is one. `test`: this file's are for testing,
-/// whatever request it says.
+/// whatever request it contains.
 std::vector<Shards> requestsOf(const std::vector<fs::path>& files, const fs::path& test, const SensorDesign& design,
                                const std::stop_token& stop) {
   std::vector<Shards> requests;

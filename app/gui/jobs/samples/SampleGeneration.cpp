@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFitsShare = 0.9; ///< of the time for samples by surrogates
 
-/// An empty set made wide enough for all that is asked.
+/// An empty set with the size of the request.
 SampleSet allocated(SampleSet set, std::size_t total) {
   const auto columns = static_cast<Eigen::Index>(total);
   set.area.resize(columns);

@@ -10,7 +10,7 @@ namespace palp {
 class SampleGenerator;
 
 /// Samples on the way, for a job: training samples first, then those for testing. Sample i depends on the request and i
-/// alone, so that what was stopped goes on to the same bytes.
+/// alone, so that a stopped generation continues to the same bytes.
 class SampleGeneration {
 public:
   SampleGeneration(const SampleSettings& settings, const MeshOptions& mesh, const SensorDesign& design)
@@ -27,7 +27,7 @@ public:
   bool make(StageLog& stages, const std::stop_token& stop, JobProgress& progress);
   /// Hands all of them over.
   std::shared_ptr<const NetworkSamples> samples();
-  /// Samples that are there, of how many; {0, 0} before the first.
+  /// Samples done, of how many; {0, 0} before the first.
   [[nodiscard]] std::array<std::size_t, 2> state() const;
 
 private:

@@ -18,7 +18,7 @@ struct Kind {
   double field_s = 0; ///< of a sample more under the law of the field
 };
 
-/// Measured on the paper's design and two cores: palp sample with 5 to 200 samples an area and 20 to 700 touches,
+/// Measured on the paper's design and two cores: palp sample with 5 to 200 samples per area and 20 to 700 touches,
 /// twice, for a training and a test; under the field of a surrogate and of touches it is estimated.
 Kind kindOf(const SampleSettings& samples) {
   if (!samples.touches) return samples.surrogate ? Kind{"surrogate", 9, 0.0005, 0.005} : Kind{"areas", 5, 0.007, 0.32};

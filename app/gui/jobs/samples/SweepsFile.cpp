@@ -1,15 +1,8 @@
 #include "app/gui/jobs/samples/SweepsFile.h"
 
-#include "app/gui/project/ProjectFile.h"
-#include "io/StrictJson.h"
+#include "app/gui/project/ProjectFields.h"
 #include "model/base/Error.h"
 
-#include <QJsonArray>
-#include <QJsonDocument>
-#include <QJsonObject>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace palp {
@@ -18,154 +11,121 @@ namespace {
 
 constexpr const char* kVersionKey = "palp_sweeps";
 constexpr int kVersion = 1;
-constexpr std::size_t kMostOutputs = 8; ///< of a decoder: forces and a place
+constexpr std::size_t kMostOutputs = 8; ///< of a decoder: forces and a position
 constexpr double kLargest = 1e300;
+constexpr Within kNotNegative{0, kLargest};
 
-QJsonValue json(double value) {
-  return std::isfinite(value) ? QJsonValue(value) : QJsonValue();
+// Errors may be infinite or not a number: null in the file.
+
+Json errorJson(double error) {
+  return std::isfinite(error) ? jsonOf(error) : Json();
 }
 
-QJsonArray json(const Eigen::VectorXd& values) {
-  QJsonArray all;
-  for (const double value : values) all.append(json(value));
-  return all;
-}
-
-double numberOf(const JsonPlace& place) {
+double readError(const JsonPlace& place) {
   return place.isNull() ? std::numeric_limits<double>::infinity() : place.number(-kLargest, kLargest);
 }
 
-Eigen::VectorXd numbersOf(const JsonPlace& place) {
+void error(JsonFields& fields, const std::string& key, double& error) {
+  fields.custom(
+      key, JsonFields::kAlways, [&] { return errorJson(error); },
+      [&](const JsonPlace& place) { error = readError(place); });
+}
+
+Json errorsJson(const Eigen::VectorXd& errors) {
+  Json all = Json::array();
+  for (const double error : errors) all.push_back(errorJson(error));
+  return all;
+}
+
+Eigen::VectorXd readErrors(const JsonPlace& place) {
   const std::vector<JsonPlace> entries = place.list();
   if (entries.size() > kMostOutputs) place.refuse("a list of at most " + std::to_string(kMostOutputs) + " numbers");
-  Eigen::VectorXd values(static_cast<Eigen::Index>(entries.size()));
-  for (std::size_t k = 0; k < entries.size(); ++k) values(static_cast<Eigen::Index>(k)) = numberOf(entries[k]);
-  return values;
+  Eigen::VectorXd errors(static_cast<Eigen::Index>(entries.size()));
+  for (std::size_t k = 0; k < entries.size(); ++k) errors(static_cast<Eigen::Index>(k)) = readError(entries[k]);
+  return errors;
 }
 
-QJsonObject errorJson(const PredictionError& error) {
-  return {{"eq13_percent", json(error.eq13Percent)},
-          {"eq13_floored_percent", json(error.eq13FlooredPercent)},
-          {"mean_absolute", json(error.meanAbsolute)},
-          {"rmse_percent_of_range", json(error.rmsePercentOfRange)}};
+void errors(JsonFields& fields, const std::string& key, Eigen::VectorXd& errors) {
+  fields.custom(
+      key, JsonFields::kAlways, [&] { return errorsJson(errors); },
+      [&](const JsonPlace& place) { errors = readErrors(place); });
 }
 
-PredictionError errorOf(const JsonPlace& place) {
-  place.onlyKeys({"eq13_percent", "eq13_floored_percent", "mean_absolute", "rmse_percent_of_range"});
-  PredictionError error; // its floor is not in the file: no sweep or comparison shows it
-  error.eq13Percent = numbersOf(place.at("eq13_percent"));
-  error.eq13FlooredPercent = numbersOf(place.at("eq13_floored_percent"));
-  error.meanAbsolute = numbersOf(place.at("mean_absolute"));
-  error.rmsePercentOfRange = numbersOf(place.at("rmse_percent_of_range"));
-  return error;
-}
-
-QJsonObject settingsJson(const NetworkSettings& settings) {
-  return QJsonDocument::fromJson(networkText(settings)).object();
-}
-
-NetworkSettings settingsOf(const JsonPlace& place, const QString& file) {
-  return parseNetwork(QByteArray::fromStdString(place.asJson()), file);
-}
-
-QJsonObject pointJson(const SweepPoint& point) {
-  return {{"spread", point.spread},
-          {"error", errorJson(point.error)},
-          {"leave_one_out_N", json(point.report.leaveOneOut)},
-          {"condition", json(point.report.condition)},
-          {"ridge", point.report.ridge},
-          {"centers", point.report.centers},
-          {"seconds", point.report.seconds}};
-}
-
-SweepPoint pointOf(const JsonPlace& place) {
-  place.onlyKeys({"spread", "error", "leave_one_out_N", "condition", "ridge", "centers", "seconds"});
-  SweepPoint point;
-  point.spread = point.report.spread = place.at("spread").number(0, kLargest);
-  point.error = errorOf(place.at("error"));
-  point.report.leaveOneOut = numbersOf(place.at("leave_one_out_N"));
-  point.report.condition = numberOf(place.at("condition"));
-  point.report.ridge = place.at("ridge").number(0, kLargest);
-  point.report.centers = place.at("centers").integer(0, std::numeric_limits<int>::max());
-  point.report.seconds = place.at("seconds").number(0, kLargest);
-  return point;
-}
-
-QJsonObject trialJson(const DecoderTrial& trial) {
-  QJsonObject object{{"decoder", QString::fromStdString(name(trial.kind))},
-                     {"error", errorJson(trial.error)},
-                     {"spread", trial.spread},
-                     {"seconds", trial.seconds},
-                     {"microseconds_per_sample", trial.microsecondsPerSample},
-                     {"not_trained_because", trial.refusal}};
-  if (trial.place)
-    object["place_mm"] =
-        QJsonArray{json(trial.place->median_mm), json(trial.place->rms_mm.x()), json(trial.place->rms_mm.y())};
-  return object;
-}
-
-DecoderTrial trialOf(const JsonPlace& place) {
-  place.onlyKeys({"decoder", "error", "spread", "seconds", "microseconds_per_sample", "not_trained_because"},
-                 {"place_mm"});
-  DecoderTrial trial;
-  trial.kind = place.at("decoder").named(kDecoderKinds);
-  trial.error = errorOf(place.at("error"));
-  if (place.has("place_mm")) {
-    const std::vector<double> numbers = place.at("place_mm").numbers(3);
-    trial.place = PlaceError{{numbers[1], numbers[2]}, numbers[0], {}};
-  }
-  trial.spread = place.at("spread").number(0, kLargest);
-  trial.seconds = place.at("seconds").number(0, kLargest);
-  trial.microsecondsPerSample = place.at("microseconds_per_sample").number(0, kLargest);
-  trial.refusal = QString::fromStdString(place.at("not_trained_because").string());
-  return trial;
-}
-
-/// Which samples they are of, as far as a file of samples says it.
-QJsonObject samplesJson(const NetworkSamples& samples) {
-  return {{"design", QString::fromStdString(samples.training.origin.designFingerprint)},
-          {"training", static_cast<qint64>(samples.training.size())},
-          {"test", static_cast<qint64>(samples.test.size())},
-          {"seed", QString::number(samples.training.origin.seed)}};
+/// The samples of a sweep, as far as a file of samples identifies them.
+Json samplesJson(const NetworkSamples& samples) {
+  return {{"design", samples.training.origin.designFingerprint},
+          {"training", samples.training.size()},
+          {"test", samples.test.size()},
+          {"seed", std::to_string(samples.training.origin.seed)}};
 }
 
 } // namespace
 
+static void describe(JsonFields& fields, PredictionError& error) { // without its floor: nothing here shows it
+  errors(fields, "eq13_percent", error.eq13Percent);
+  errors(fields, "eq13_floored_percent", error.eq13FlooredPercent);
+  errors(fields, "mean_absolute", error.meanAbsolute);
+  errors(fields, "rmse_percent_of_range", error.rmsePercentOfRange);
+}
+
+static void describe(JsonFields& fields, SweepPoint& point) {
+  fields.field("spread", point.spread, kNotNegative);
+  point.report.spread = point.spread;
+  fields.field("error", point.error);
+  errors(fields, "leave_one_out_N", point.report.leaveOneOut);
+  error(fields, "condition", point.report.condition);
+  fields.field("ridge", point.report.ridge, kNotNegative);
+  fields.field("centers", point.report.centers, Within{0, std::numeric_limits<int>::max()});
+  fields.field("seconds", point.report.seconds, kNotNegative);
+}
+
+static void describe(JsonFields& fields, DecoderTrial& trial) {
+  fields.field("decoder", trial.kind, kDecoderKinds);
+  fields.field("error", trial.error);
+  if (fields.form("place_mm", trial.place.has_value())) {
+    const PlaceError place = trial.place.value_or(PlaceError{});
+    std::array<double, 3> numbers{place.median_mm, place.rms_mm.x(), place.rms_mm.y()};
+    fields.branch("place_mm", numbers);
+    trial.place = PlaceError{{numbers[1], numbers[2]}, numbers[0], {}};
+  }
+  fields.field("spread", trial.spread, kNotNegative);
+  fields.field("seconds", trial.seconds, kNotNegative);
+  fields.field("microseconds_per_sample", trial.microsecondsPerSample, kNotNegative);
+  std::string refusal = trial.refusal.toStdString();
+  fields.field("not_trained_because", refusal);
+  trial.refusal = QString::fromStdString(refusal);
+}
+
+static void describe(JsonFields& fields, NetworkResults& results) {
+  int version = kVersion;
+  fields.field(kVersionKey, version, Within{1, kVersion});
+  const std::shared_ptr<const NetworkSamples> samples = results.samples;
+  fields.custom(
+      "samples", JsonFields::kAlways, [&] { return samplesJson(*samples); }, [](const JsonPlace& /*place*/) {});
+  if (fields.form("sweep", !results.sweep.empty()))
+    fields.group("sweep", false, [&](JsonFields& sweep) {
+      sweep.field("settings", results.sweepSettings);
+      sweep.field("points", results.sweep);
+    });
+  if (fields.form("comparison", !results.trials.empty()))
+    fields.group("comparison", false, [&](JsonFields& comparison) {
+      comparison.field("settings", results.trialsSettings);
+      comparison.field("decoders", results.trials);
+    });
+}
+
 QByteArray sweepsText(const NetworkResults& results) {
-  QJsonObject root{{kVersionKey, kVersion}, {"samples", samplesJson(*results.samples)}};
-  if (!results.sweep.empty()) {
-    QJsonArray points;
-    for (const SweepPoint& point : results.sweep) points.append(pointJson(point));
-    root["sweep"] = QJsonObject{{"settings", settingsJson(results.sweepSettings)}, {"points", points}};
-  }
-  if (!results.trials.empty()) {
-    QJsonArray trials;
-    for (const DecoderTrial& trial : results.trials) trials.append(trialJson(trial));
-    root["comparison"] = QJsonObject{{"settings", settingsJson(results.trialsSettings)}, {"decoders", trials}};
-  }
-  return QJsonDocument(root).toJson();
+  return QByteArray::fromStdString(jsonText(jsonOf(results), 4) + "\n");
 }
 
 void parseSweeps(const QByteArray& text, const QString& file, NetworkResults& results) {
   const std::string name = file.toStdString();
   const Json json = parseJson({text.data(), static_cast<std::size_t>(text.size())}, name);
   const JsonPlace root(json, name);
-  root.onlyKeys({kVersionKey, "samples"}, {"sweep", "comparison"});
   formatVersion(root, kVersionKey, kVersion);
-  const QByteArray of = QByteArray::fromStdString(root.at("samples").asJson());
-  if (QJsonDocument::fromJson(of).object() != samplesJson(*results.samples))
+  if (root.has("samples") && root.at("samples").asJson() != jsonText(samplesJson(*results.samples)))
     throw Error(name + ": its sweep and comparison belong to other samples than the project's; they are not shown");
-  NetworkResults found;
-  if (root.has("sweep")) {
-    const JsonPlace place = root.at("sweep");
-    found.sweepSettings = settingsOf(place.onlyKeys({"settings", "points"}).at("settings"), file);
-    for (const JsonPlace& point : place.at("points").list()) found.sweep.push_back(pointOf(point));
-  }
-  if (root.has("comparison")) {
-    const JsonPlace place = root.at("comparison");
-    found.trialsSettings = settingsOf(place.onlyKeys({"settings", "decoders"}).at("settings"), file);
-    for (const JsonPlace& trial : place.at("decoders").list()) found.trials.push_back(trialOf(trial));
-  }
+  auto found = JsonFields::read<NetworkResults>(root);
   results.sweep = std::move(found.sweep);
   results.sweepSettings = found.sweepSettings;
   results.trials = std::move(found.trials);

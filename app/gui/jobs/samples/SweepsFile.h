@@ -6,12 +6,12 @@
 
 namespace palp {
 
-/// The sweep of the spread and the comparison of decoders that were made of samples, as they lie beside these in a
-/// folder; read back as strictly as every file of ours. Errors that are no number stand as null.
+/// The sweep of the spread and the comparison of decoders, a file in the folder of their samples. Errors that are not
+/// finite are null.
 QByteArray sweepsText(const NetworkResults& results);
 
-/// Sets sweep and comparison of `results`, whose samples are there; `file` is for refusals. Throws Error where the text
-/// is none of these, or of other samples.
+/// Sets sweep and comparison of `results`, whose samples must be set; `file` is for messages. Throws Error where the
+/// text is not such a file, or belongs to other samples.
 void parseSweeps(const QByteArray& text, const QString& file, NetworkResults& results);
 
 } // namespace palp

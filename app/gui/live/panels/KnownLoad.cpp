@@ -1,5 +1,6 @@
 #include "app/gui/live/panels/KnownLoad.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QComboBox>
@@ -50,9 +51,7 @@ std::array<double, 3> suggestedMasses_g(double most_N) {
 KnownLoad::KnownLoad(QWidget* parent) : QWidget(parent) {
   auto* form = form_ = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
-  area_ = new WholeBox;
-  area_->setObjectName("labelArea");
-  area_->setToolTip(tr("Pressed load area; areas count from 0"));
+  area_ = wholeBox("labelArea", {.whileTyping = true}, tr("Pressed load area; areas count from 0"));
   form->addRow(tr("Area"), area_);
   placeRow_ = buildPlace();
   form->addRow(tr("Position"), placeRow_);
@@ -66,49 +65,34 @@ QHBoxLayout* KnownLoad::buildPlace() {
   auto* row = new QHBoxLayout;
   for (std::size_t axis = 0; axis < place_mm_.size(); ++axis) {
     const QString name = axis == 0 ? "x" : "y";
-    place_mm_[axis] = new NumberBox;
-    place_mm_[axis]->setObjectName("label_" + name);
-    place_mm_[axis]->setAccessibleName(tr("%1 of the known touch").arg(name));
-    place_mm_[axis]->setDecimals(2);
-    place_mm_[axis]->setSuffix(tr(" mm"));
+    place_mm_[axis] = numberBox("label_" + name, {.unit = tr(" mm"), .whileTyping = true},
+                                tr("%1 of the touch, measured from the block's corner [mm]").arg(name),
+                                tr("%1 of the known touch").arg(name));
     place_mm_[axis]->setMinimumWidth(kNumber_px);
-    place_mm_[axis]->setToolTip(tr("%1 of the touch, measured from the block's corner [mm]").arg(name));
     row->addWidget(place_mm_[axis], 1);
   }
   return row;
 }
 
 QHBoxLayout* KnownLoad::buildMass() {
-  mass_g_ = new NumberBox;
-  mass_g_->setObjectName("labelMass");
-  mass_g_->setAccessibleName(tr("Mass of the known load"));
-  mass_g_->setRange(0, kMostMass_g);
-  mass_g_->setDecimals(2);
-  mass_g_->setSingleStep(10);
-  mass_g_->setSuffix(tr(" g"));
-  mass_g_->setSpecialValueText(tr("none"));
-  mass_g_->setToolTip(
+  mass_g_ = numberBox(
+      "labelMass", {.high = kMostMass_g, .step = 10, .unit = tr(" g"), .special = tr("none"), .whileTyping = true},
       tr("<qt>Mass that rests on the area or hangs on a thread that pulls it along x or y [g]; its weight "
-         "(9.80665 N/kg) is the force below</qt>"));
-  direction_ = new QComboBox;
-  direction_->setObjectName("labelDirection");
-  direction_->setAccessibleName(tr("Direction of the mass"));
+         "(9.80665 N/kg) is the force below</qt>"),
+      tr("Mass of the known load"));
+  direction_ = choiceBox("labelDirection", {}, {}, tr("Direction of the mass"));
   for (const Pull& pull : kPulls) direction_->addItem(tr(pull.text));
   direction_->setToolTip(tr("Direction of the weight: down where it rests on the area, otherwise along the thread"));
   connect(mass_g_, &QDoubleSpinBox::valueChanged, this, &KnownLoad::takeMass);
   connect(direction_, &QComboBox::currentIndexChanged, this, &KnownLoad::takeMass);
   mass_g_->setMinimumWidth(kNumber_px);
-  auto* row = new QHBoxLayout;
-  row->addWidget(mass_g_, 1);
-  row->addWidget(direction_);
-  return row;
+  return inRow({{mass_g_, 1}, direction_});
 }
 
 QHBoxLayout* KnownLoad::buildSuggestions() {
   auto* row = new QHBoxLayout;
   for (std::size_t k = 0; k < suggested_.size(); ++k) {
-    suggested_[k] = new QPushButton;
-    suggested_[k]->setObjectName(QString("suggestedMass%1").arg(k));
+    suggested_[k] = pushButton(QString(), QString("suggestedMass%1").arg(k));
     suggested_[k]->setMinimumWidth(kNumber_px);
     suggested_[k]->hide();
     row->addWidget(suggested_[k]);
@@ -128,12 +112,10 @@ QLayout* KnownLoad::buildForces() {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int column = static_cast<int>(axis) + 1;
     auto* name = new QLabel(kAxes[axis]);
-    force_N_[axis] = new NumberBox;
-    force_N_[axis]->setObjectName(QString("label_%1").arg(kAxes[axis]));
-    force_N_[axis]->setAccessibleName(tr("%1 of the known load").arg(kAxes[axis]));
-    force_N_[axis]->setRange(-kMostForce_N, kMostForce_N);
-    force_N_[axis]->setDecimals(4);
-    force_N_[axis]->setSingleStep(0.1);
+    force_N_[axis] =
+        numberBox(QString("label_%1").arg(kAxes[axis]),
+                  {.low = -kMostForce_N, .high = kMostForce_N, .decimals = 4, .step = 0.1, .whileTyping = true}, {},
+                  tr("%1 of the known load").arg(kAxes[axis]));
     force_N_[axis]->setButtonSymbols(QAbstractSpinBox::NoButtons); // three in a line
     force_N_[axis]->setMinimumWidth(kNumber_px);
     force_N_[axis]->setToolTip(tr("%1 of the known load [N]; a push is negative in z").arg(kAxes[axis]));
@@ -145,7 +127,7 @@ QLayout* KnownLoad::buildForces() {
     grid->addWidget(force_N_[axis], 1, column);
     grid->addWidget(reads_[axis], 2, column);
     grid->setColumnStretch(column, 1);
-    connect(force_N_[axis], &QDoubleSpinBox::valueChanged, this, [this] { // typed: it is no mass any more
+    connect(force_N_[axis], &QDoubleSpinBox::valueChanged, this, [this] { // typed: not a mass any more
       const QSignalBlocker quiet(mass_g_);
       mass_g_->setValue(0);
     });
@@ -154,7 +136,7 @@ QLayout* KnownLoad::buildForces() {
 }
 
 void KnownLoad::takeMass() {
-  if (mass_g_->value() == 0) return; // the force that is there stays
+  if (mass_g_->value() == 0) return; // the present force stays
   const Pull& pull = kPulls[static_cast<std::size_t>(direction_->currentIndex())];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const QSignalBlocker quiet(force_N_[axis]);

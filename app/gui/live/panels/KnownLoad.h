@@ -22,7 +22,7 @@ namespace palp {
 std::array<double, 3> suggestedMasses_g(double most_N);
 
 /// The load that is known to act on the sensor now: its area, or its place where the network gives one, and its force
-/// in newtons, or as a mass that rests on the area or pulls it along x or y by a thread. Beside the force stands what
+/// in newtons, or as a mass that rests on the area or pulls it along x or y by a thread. Next to the force is what
 /// the network reads.
 class KnownLoad : public QWidget {
   Q_OBJECT

@@ -2,19 +2,14 @@
 
 #include "app/gui/live/LiveHost.h"
 #include "app/gui/project/LiveSettings.h"
+#include "app/gui/widgets/FieldBindings.h"
 #include "app/study/live/LiveSession.h"
 
 #include <QWidget>
 
-#include <functional>
-
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
-class QSpinBox;
 
 namespace palp {
 
@@ -24,8 +19,8 @@ struct LiveControlState {
   bool paused = false;
   bool replaying = false; ///< what is recorded is a copy of what is played
   double recorded_s = 0;  ///< since the recording was begun
-  QString network;        ///< in words: name, decoder, wires, noise
-  QString networkBefore;  ///< the one that can be had back; empty: none
+  QString network;        ///< as text: name, decoder, wires, noise
+  QString networkBefore;  ///< the one that can be restored; empty: none
 };
 
 /// What is done with the frames: network, tare, recording, marks, and the scales of the views.
@@ -38,7 +33,7 @@ public:
   /// Record, pause and marks: a box of its own, for who shows it above all others.
   [[nodiscard]] QWidget* recording() const { return recording_; }
 
-  void display(const LiveSettings& settings);
+  void display(const LiveSettings& settings) { fields_.display(settings); }
   void displayState(const LiveControlState& state);
   /// Why the network that was chosen is not in use; stays until another is.
   void displayNetworkProblem(const QString& sentence);
@@ -49,39 +44,37 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void tareAsked();
-  void clearTareAsked();
+  void tareRequested();
+  void clearTareRequested();
   /// The network that ships with Palp is wanted in place of one that was refined from it.
-  void shippedAsked();
-  void pauseAsked(bool paused);
-  void markAsked(const QString& text);
+  void shippedRequested();
+  void pauseRequested(bool paused);
+  void markRequested(const QString& text);
   /// The network before is wanted back.
-  void backAsked();
-  /// A recording is to begin, or the one that runs is to end. `replace`: the user has said that a file of this name may
-  /// go.
-  void recordAsked(const QString& file, bool replace);
-  void exportAsked(const QString& file);
+  void backRequested();
+  /// A recording is to begin, or the one that runs is to end. `replace`: the user has confirmed that a file of this
+  /// name may go.
+  void recordRequested(const QString& file, bool replace);
+  void exportRequested(const QString& file);
 
 private:
   QWidget* buildNetwork();
   QWidget* buildRecording();
   QWidget* buildAlarm();
   QWidget* buildScales();
-  void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseNetwork();
   void useNetwork(const std::string& file);
   void record();
   void displayTare(const LiveStatus& status);
   void lookForFile();
 
-  LiveSettings settings_;
+  FieldBindings<LiveSettings> fields_;
   QWidget* recording_ = nullptr;
   QLabel* network_ = nullptr;
   QLabel* networkProblem_ = nullptr;
   QPushButton* shipped_ = nullptr;
   QPushButton* back_ = nullptr;
   QString networkRefused_;
-  QSpinBox* tareFrames_ = nullptr;
   QPushButton* tare_ = nullptr;
   QPushButton* clearTare_ = nullptr;
   QLabel* tareState_ = nullptr;
@@ -89,21 +82,13 @@ private:
   QLineEdit* file_ = nullptr;
   QPushButton* record_ = nullptr;
   QLabel* recorded_ = nullptr;
-  QString replaceable_; ///< the file that the user said may go
+  QString replaceable_; ///< the file that the user confirmed to replace
   QString fileThere_;   ///< name of the wanted file where it is there already
   bool records_ = false;
   QString recordedLast_;     ///< of a recording, what it came to
   QString recordingProblem_; ///< stays until the next recording
   QLineEdit* mark_ = nullptr;
   int marks_ = 0;
-  QDoubleSpinBox* arrow_ = nullptr;
-  QComboBox* change_ = nullptr;
-  QComboBox* force_ = nullptr;
-  QCheckBox* alarmOn_ = nullptr;
-  QComboBox* alarmForce_ = nullptr;
-  QComboBox* alarmSide_ = nullptr;
-  QDoubleSpinBox* alarmLimit_ = nullptr;
-  QSpinBox* window_ = nullptr;
 };
 
 } // namespace palp

@@ -1,17 +1,14 @@
 #pragma once
 
 #include "app/gui/project/LiveSettings.h"
+#include "app/gui/widgets/FieldBindings.h"
 #include "app/study/live/LiveSession.h"
 #include "io/board/HidBoards.h"
 
 #include <QWidget>
 
-#include <functional>
-
-class QComboBox;
 class QListWidget;
 class QPushButton;
-class QSpinBox;
 
 namespace palp {
 
@@ -36,26 +33,25 @@ public:
 
   void display(const LiveSettings& settings);
   void displayState(const LiveSourceState& state);
-  /// Another board may be shown beside this one.
+  /// Another board may be shown in addition to this one.
   void setMoreAllowed(bool allowed);
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void openAgainAsked();
-  void anotherAsked();
+  void openAgainRequested();
+  void anotherRequested();
 
 private:
   QWidget* buildDevices();
   QWidget* buildScan();
-  void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
   void chooseDevice(int row);
   void listDevices(const LiveSourceState& state);
   void chooseRecording();
   void listRows(int rowWires);
 
-  LiveSettings settings_;
+  FieldBindings<LiveSettings> fields_;
   QListWidget* devices_ = nullptr;
-  QStringList listed_; ///< what stands in the list, so that it is filled only where that changed
+  QStringList listed_; ///< the rows of the list, so that it is filled only where they changed
   QString recordings_; ///< folder where recordings are
   QPushButton* again_ = nullptr;
   QPushButton* another_ = nullptr;

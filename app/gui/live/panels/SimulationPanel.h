@@ -1,20 +1,16 @@
 #pragma once
 
 #include "app/gui/project/LiveSettings.h"
+#include "app/gui/widgets/FieldBindings.h"
 
 #include <QWidget>
 
 #include <array>
-#include <functional>
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QHBoxLayout;
 class QLabel;
 class QPushButton;
-class QSpinBox;
 
 namespace palp {
 
@@ -39,37 +35,28 @@ public:
 
 signals:
   void edited(const QString& what, const LiveSettings& settings);
-  void plugAsked(bool in);
+  void plugRequested(bool in);
   /// The project's design, or an indenter that moves over it, is to be simulated.
-  void designAsked();
+  void designRequested();
 
 private:
   void buildDesign(QFormLayout& form);
   void buildTouch(QFormLayout& form);
   void buildDisturbances(QFormLayout& form);
   void buildFaults(QFormLayout& form);
-  template <class Box, class Signal, class Change>
-  void follow(Box* box, Signal signal, const QString& what, Change change);
-  void edit(const QString& what, const std::function<void(LiveSettings&)>& change);
-  void showBrokenWires();
+  QSpinBox* addWire(const QString& name, const QString& what, int SimulationSettings::*wire, const QString& tip);
 
-  LiveSettings settings_;
+  FieldBindings<LiveSettings> fields_;
   QLabel* design_ = nullptr;
   QPushButton* simulate_ = nullptr;
   QPushButton* plug_ = nullptr;
-  QCheckBox* moving_ = nullptr;
-  QCheckBox* held_ = nullptr;
   std::array<QDoubleSpinBox*, 2> place_{};
   QFormLayout* form_ = nullptr;
   QHBoxLayout* places_ = nullptr; ///< of the indenter, in the form
   QSpinBox* area_ = nullptr;
   std::array<QDoubleSpinBox*, 3> force_{};
-  QComboBox* noise_ = nullptr;
-  QDoubleSpinBox* warming_ = nullptr;
-  QDoubleSpinBox* hysteresis_ = nullptr;
   QSpinBox* openRow_ = nullptr;
   QSpinBox* openColumn_ = nullptr;
-  QSpinBox* dropEvery_ = nullptr;
 };
 
 } // namespace palp

@@ -7,7 +7,7 @@
 namespace palp {
 
 /// The file that is written where this one was wanted: itself while there is none of its name, else its name with the
-/// date and time, counted on where that is there too.
+/// date and time, with a number where that exists too.
 std::filesystem::path freeFile(const std::filesystem::path& wanted, const QDateTime& now);
 /// The same of a recording, which has an extension.
 std::filesystem::path freeRecording(std::filesystem::path wanted, const QDateTime& now);

@@ -1,5 +1,6 @@
 #include "app/gui/live/recordings/ReplayBar.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
 #include <QCheckBox>
@@ -27,7 +28,7 @@ constexpr double kMostSpeed = 1000;
 constexpr int kMarkWidth_px = 2;
 constexpr int kMarkShare = 3; // of the time line's height, that a mark takes
 
-/// A click goes to its place; the recording's marks stand on it.
+/// A click goes to its time; it shows the recording's marks.
 class TimeLine : public QSlider {
 public:
   TimeLine() : QSlider(Qt::Horizontal) {}
@@ -59,12 +60,7 @@ private:
 };
 
 QDoubleSpinBox* timeBox(const QString& name, const QString& tip) {
-  auto* box = new NumberBox;
-  box->setObjectName(name);
-  box->setDecimals(2);
-  box->setSuffix(QObject::tr(" s"));
-  box->setRange(0, 0);
-  box->setToolTip(tip);
+  auto* box = numberBox(name, {.high = 0, .unit = QObject::tr(" s"), .whileTyping = true}, tip);
   return box;
 }
 
@@ -76,39 +72,23 @@ ReplayBar::ReplayBar(LiveHost& host, QWidget* parent) : QWidget(parent), host_(h
   column->setSpacing(2);
   buildTimeLine();
   buildLoop();
-  auto* board = new QPushButton(tr("Back to the board"));
-  board->setObjectName("backToBoard");
-  board->setToolTip(tr("Ends the replay and returns to the first board, or to the simulated board"));
+  auto* board = pushButton(tr("Back to the board"), "backToBoard",
+                           tr("Ends the replay and returns to the first board, or to the simulated board"));
   auto* upper = new QHBoxLayout;
   for (QPushButton* button : {pause_, back_, step_}) upper->addWidget(button);
-  upper->addWidget(line_, 1);
-  upper->addWidget(place_);
-  upper->addWidget(length_);
-  auto* lower = new QHBoxLayout;
-  lower->addWidget(new QLabel(tr("Speed")));
-  lower->addWidget(speed_);
-  lower->addWidget(loop_);
-  lower->addWidget(from_);
-  lower->addWidget(new QLabel(tr("To")));
-  lower->addWidget(to_);
-  lower->addWidget(marks_, 1);
-  lower->addWidget(board);
+  addTo(*upper, {{line_, 1}, place_, length_});
+  auto* lower = inRow({new QLabel(tr("Speed")), speed_, loop_, from_, new QLabel(tr("To")), to_, {marks_, 1}, board});
   column->addLayout(upper);
   column->addLayout(lower);
-  connect(board, &QPushButton::clicked, this, &ReplayBar::boardAsked);
+  connect(board, &QPushButton::clicked, this, &ReplayBar::boardRequested);
   hide();
 }
 
 void ReplayBar::buildTimeLine() {
-  pause_ = new QPushButton(tr("Pause"));
-  pause_->setObjectName("replayPause");
-  pause_->setToolTip(tr("Pauses the recording or continues it; restarts it at its end (Space)"));
-  step_ = new QPushButton(tr("Next frame"));
-  step_->setObjectName("replayStep");
-  step_->setToolTip(tr("Steps forward by one frame and pauses (Period)"));
-  back_ = new QPushButton(tr("Frame back"));
-  back_->setObjectName("replayBack");
-  back_->setToolTip(tr("Steps back by one frame and pauses (Comma)"));
+  pause_ = pushButton(tr("Pause"), "replayPause",
+                      tr("Pauses the recording or continues it; restarts it at its end (Space)"));
+  step_ = pushButton(tr("Next frame"), "replayStep", tr("Steps forward by one frame and pauses (Period)"));
+  back_ = pushButton(tr("Frame back"), "replayBack", tr("Steps back by one frame and pauses (Comma)"));
   line_ = new TimeLine;
   line_->setObjectName("replayLine");
   line_->setAccessibleName(tr("Position in the recording"));
@@ -125,7 +105,7 @@ void ReplayBar::buildTimeLine() {
     goTo(to_s);
   });
   connect(place_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, [this] {
-    if (!std::exchange(sought_, false)) goTo(place_->value()); // the number that stood there already
+    if (!std::exchange(sought_, false)) goTo(place_->value()); // the number is unchanged
     line_->setFocus();                                         // the box follows the recording again
   });
   connect(back_, &QPushButton::clicked, this, [this] { host_.step(-1); });
@@ -140,18 +120,12 @@ void ReplayBar::buildTimeLine() {
 }
 
 void ReplayBar::buildLoop() {
-  speed_ = new QComboBox;
-  speed_->setObjectName("replaySpeed");
+  speed_ = choiceBox("replaySpeed", {"0.1", "0.5", "1", "2", "10", "0"},
+                     tr("Replay speed relative to the recording; 0 is as fast as the file can be read"));
   speed_->setEditable(true);
   speed_->setInsertPolicy(QComboBox::NoInsert);
-  speed_->addItems({"0.1", "0.5", "1", "2", "10", "0"});
-  speed_->setToolTip(tr("Replay speed relative to the recording; 0 is as fast as the file can be read"));
-  loop_ = new QCheckBox(tr("Loop from"));
-  loop_->setObjectName("replayLoop");
-  loop_->setToolTip(tr("Plays between these two times repeatedly"));
-  marks_ = new QComboBox;
-  marks_->setObjectName("replayMarks");
-  marks_->setToolTip(tr("Event marks of the recording: select one to go there"));
+  loop_ = checkBox(tr("Loop from"), "replayLoop", tr("Plays between these two times repeatedly"));
+  marks_ = choiceBox("replayMarks", {}, tr("Event marks of the recording: select one to go there"));
   marks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(marks_, &QComboBox::activated, this, [this](int) {
     if (marks_->currentData().isValid()) goTo(marks_->currentData().toDouble());
@@ -160,13 +134,13 @@ void ReplayBar::buildLoop() {
   to_ = timeBox("loopTo", tr("End of the loop [s]"));
   connect(speed_, &QComboBox::currentTextChanged, this, [this](const QString& text) {
     const auto value = typedNumber(text);
-    if (value && *value >= 0 && *value <= kMostSpeed) emit speedAsked(*value);
+    if (value && *value >= 0 && *value <= kMostSpeed) emit speedRequested(*value);
   });
   connect(speed_->lineEdit(), &QLineEdit::editingFinished, this, [this] {
     const auto value = typedNumber(speed_->currentText());
     if (value && *value >= 0 && *value <= kMostSpeed) return;
-    sayNotApplied(*speed_,
-                  tr("Not applied: \"%1\" is not a number from 0 to %2").arg(speed_->currentText()).arg(kMostSpeed));
+    showNotApplied(*speed_,
+                   tr("Not applied: \"%1\" is not a number from 0 to %2").arg(speed_->currentText()).arg(kMostSpeed));
     showSpeed();
   });
   connect(loop_, &QCheckBox::toggled, this, &ReplayBar::loop);
@@ -188,7 +162,7 @@ void ReplayBar::goTo(double to_s) {
     loop_->setChecked(false);
     emit message(tr("The loop is off: %1 s is outside of it.").arg(to_s, 0, 'f', 2));
   }
-  if (host_.status().state == LiveState::Ended) host_.setPaused(true); // it stands there, instead of ending again
+  if (host_.status().state == LiveState::Ended) host_.setPaused(true); // it pauses there, instead of ending again
   host_.seek(to_s);
 }
 

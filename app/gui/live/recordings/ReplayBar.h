@@ -25,8 +25,8 @@ public:
   void displayState();
 
 signals:
-  void speedAsked(double speed);
-  void boardAsked();
+  void speedRequested(double speed);
+  void boardRequested();
   void message(const QString& sentence);
 
 private:

@@ -13,7 +13,7 @@ template <class Value> bool isReady(const std::future<Value>& future) {
   return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// Lines never replace a file: they go into one beside it with the date in its name, as recordings do.
+/// Lines never replace a file: they go into one next to it with the date in its name, as recordings do.
 std::string besideWhatIsThere(const std::string& to) {
   const std::string lines = "csv:";
   std::error_code unknown; // what cannot be looked at is refused when it is opened

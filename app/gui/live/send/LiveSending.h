@@ -7,13 +7,13 @@
 
 namespace palp {
 
-/// What is told of one receiver.
+/// The status of one receiver.
 struct SendingState {
   enum class Kind { Off, Opening, Sending, Refused };
   Kind kind = Kind::Off;
   std::uint64_t sent = 0, dropped = 0; ///< since it was opened
   std::string problem;                 ///< why it was refused
-  std::string to;                      ///< where it goes: not to a file that was there before, but beside it
+  std::string to;                      ///< where it goes: not to an existing file, but to a new one next to it
 };
 
 /// Keeps the receivers open that the settings ask for. Opening and ending take their time in threads of their own:

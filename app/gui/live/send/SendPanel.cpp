@@ -1,5 +1,6 @@
 #include "app/gui/live/send/SendPanel.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/WrappedLabel.h"
 
 #include <QHBoxLayout>
@@ -65,21 +66,14 @@ QWidget* SendPanel::build() {
                        "nothing else is affected."));
   column->addWidget(list_);
   auto* row = new QHBoxLayout;
-  address_ = new QLineEdit;
-  address_->setObjectName("receiver");
+  address_ =
+      lineEdit("receiver", tr("udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT or csv:FILE"));
   address_->setPlaceholderText("udp:localhost:9870");
-  address_->setToolTip(tr("udp:HOST:PORT (JSON, for PlotJuggler), osc:HOST:PORT, zmq:HOST:PORT or csv:FILE"));
-  add_ = new QPushButton(tr("Add"));
-  add_->setObjectName("addReceiver");
-  remove_ = new QPushButton(tr("Remove"));
-  remove_->setObjectName("removeReceiver");
-  row->addWidget(address_, 1);
-  row->addWidget(add_);
-  row->addWidget(remove_);
+  add_ = pushButton(tr("Add"), "addReceiver");
+  remove_ = pushButton(tr("Remove"), "removeReceiver");
+  addTo(*row, {{address_, 1}, add_, remove_});
   column->addLayout(row);
-  problem_ = new WrappedLabel;
-  problem_->setObjectName("sendProblem");
-  problem_->setProperty("role", "problem");
+  problem_ = wrappedLabel("sendProblem", "problem");
   column->addWidget(problem_);
   connect(add_, &QPushButton::clicked, this, &SendPanel::add);
   connect(address_, &QLineEdit::returnPressed, this, &SendPanel::add);

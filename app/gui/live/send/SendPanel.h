@@ -14,7 +14,7 @@ namespace palp {
 class WrappedLabel;
 
 /// Other programs that get the forces of this board: an address each, switched on and off by its tick, with what was
-/// sent and dropped. Folded away until it is asked for.
+/// sent and dropped. Folded away until it is opened.
 class SendPanel : public QWidget {
   Q_OBJECT
 

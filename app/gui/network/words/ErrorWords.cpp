@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kOwnColumns = 4; ///< of the network's errors
 constexpr double kClearly = 1.01;      ///< what the words' digits tell apart
 
-/// A cell of the table of errors, which stands at the right.
+/// A right-aligned cell of the table of errors.
 QString cell(const QString& text) {
   return "<td align=\"right\" style=\"padding-left: 14px\">" + text + "</td>";
 }
@@ -23,7 +23,7 @@ QString cell(const QString& text) {
 struct Column {
   QString head;
   Eigen::VectorXd forces;
-  Eigen::VectorXd places; ///< empty: it says nothing of them
+  Eigen::VectorXd places; ///< empty: no positions
   QString placeUnit;      ///< where it is another one than the head's
 };
 
@@ -58,7 +58,7 @@ Eigen::VectorXd extent(const Eigen::MatrixXd& values) {
   return values.rowwise().maxCoeff() - values.rowwise().minCoeff();
 }
 
-/// Places that were learned, on samples that are there.
+/// Positions that were learned, on the loaded samples.
 bool ofPlaces(const NetworkSession& session, const NetworkFit& fit) {
   return fit.error.place && session.fitIsCurrent() && fit.prediction.places_mm.cols() == session.samples()->test.size();
 }

@@ -11,8 +11,8 @@
 
 namespace palp {
 
-/// The errors of each force and, where places were learned, along x and y, as a table of rich text: beside the bound of
-/// the same noise (null: not known yet) and the network that was shown before. "-" where there is nothing to learn.
+/// The errors of each force and, where positions were learned, along x and y, as a table of rich text: with the bound
+/// of the same noise (null: not known yet) and the network that was shown before. "-" where there is nothing to learn.
 QString errorTable(const NetworkSession& session, const NetworkFit& fit, const NoiseBound* bound, const QString& title);
 
 /// Less the errors of forces that were 0 in all samples that it was trained with: it did not learn them.
@@ -24,18 +24,19 @@ Eigen::VectorXd ofForces(Eigen::VectorXd errors, const NetworkSamples* samples);
 struct RootMeanSquares {
   Eigen::VectorXd forces_N, places_mm;
 };
-/// {of the network, of a guess that says the mean of the training samples always}.
+/// {of the network, of always predicting the mean of the training samples}.
 std::array<RootMeanSquares, 2> againstAGuess(const NetworkSamples& samples, const NetworkFit& fit);
 
-/// What the network knows less of than such a guess, as a line of rich text; empty where that is nothing.
+/// The outputs in which the network is worse than such a prediction, as a line of rich text; empty where there are
+/// none.
 QString guessWords(const NetworkSession& session, const NetworkFit& fit);
 
 QString placeWords(const NetworkFit& fit);
 
-/// The errors of a network of force and place beside what no estimate without a bias can beat.
+/// The errors of a network of force and position compared with the bound of unbiased estimates.
 QString boundWords(const NetworkSession& session, const NetworkFit& fit, const SampleBounds* touches);
 
-/// How far a root mean square of so many test samples is from that of many.
+/// Statistical error of a root mean square over this many test samples.
 QString scatterWords(const NetworkSession& session, const NetworkFit& fit);
 
 /// What a result calls for.

@@ -18,7 +18,7 @@ QString triple(const Eigen::VectorXd& values, const QString& unit);
 QString optionsWords(const NetworkSettings& settings);
 /// The ridge, and whether it was chosen by the samples: "1e-05 (by leave-one-out)".
 QString ridgeWords(const NetworkFit& fit);
-/// How its inputs are scaled, set or as the mode says; "-" where that is not known.
+/// How its inputs are scaled, set or from the mode; "-" where that is unknown.
 QString scalerWords(const NetworkFit& fit);
 
 /// Where a network comes from and how it was trained: "from displacements, rows 4, rbf, default, 600 centres".
@@ -30,7 +30,7 @@ QString staleReason(const NetworkSession& session, const NetworkSettings& now);
 QString staleSweepReason(const NetworkSession& session, const NetworkSettings& now);
 /// The same for the comparison of decoders.
 QString staleTrialsReason(const NetworkSession& session, const NetworkSettings& now);
-/// The same for the list of networks, of which each says what it was trained with.
+/// The same for the list of networks, each with its training options.
 QString staleListReason(const NetworkSession& session);
 
 /// What the comparison was made with, and who is missing in it.
@@ -42,7 +42,7 @@ QString earlierDesign(const NetworkSession& session);
 /// The sweep was made as the comparison was, but for the decoder and the spread.
 bool sweepAndTrialsAgree(const NetworkSession& session);
 
-/// The network that is shown and its errors as rich text, beside the bound of the same noise (null: not known yet) and
+/// The network that is shown and its errors as rich text, with the bound of the same noise (null: unknown yet) and
 /// the network before it; grey with the reason where it is stale. `touches`: the bounds at each touch of the test;
 /// null: not known, or not yet.
 QString fitWords(const NetworkSession& session, const NetworkSettings& now, const NoiseBound* bound,

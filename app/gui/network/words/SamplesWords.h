@@ -9,7 +9,7 @@ namespace palp {
 /// What samples there are, where from, and which forces, places and resistances they span.
 QString samplesWords(const NetworkSession& session);
 
-/// What a press of the button will make; empty where only the generation knows.
+/// What a press of the button will make.
 QString plannedWords(const SampleSettings& samples, const SensorDesign& design, const MeshOptions& mesh);
 
 } // namespace palp

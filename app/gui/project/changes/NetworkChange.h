@@ -17,7 +17,7 @@ QString optionWords(const TrainOption& option, const TrainOptions& options);
 /// What changed in the network, its sweep and its training, a sentence each.
 QStringList networkChanges(const NetworkSettings& before, const NetworkSettings& after);
 
-/// What changed in the samples that are to be made, a sentence each; one empty one where that is more than can be said.
+/// What changed in the samples that are to be made, a sentence each; a single empty one where that is too many.
 QStringList sampleChanges(const SampleSettings& before, const SampleSettings& after);
 
 } // namespace palp

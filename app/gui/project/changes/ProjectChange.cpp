@@ -178,7 +178,7 @@ QString sinceWords(const Project& then, const Project& now) {
 
 QString changeWords(const QString& what, const Project& before, const Project& after) {
   QStringList changes = designChanges(before.design, after.design);
-  // A design takes loads with it that cannot act on it: that is no change of its own.
+  // A design removes the loads that cannot act on it: that is not a separate change.
   if (changes.isEmpty()) changes << loadChanges(before.load, after.load);
   if (before.mesh != after.mesh)
     changes << stepWords(QObject::tr("mesh size"), meshWords(before.mesh), meshWords(after.mesh));

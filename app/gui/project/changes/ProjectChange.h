@@ -10,8 +10,8 @@ namespace palp {
 /// "Change the spread (spread 1 -> 0.5)". `what` alone where it did more than one such thing.
 QString changeWords(const QString& what, const Project& before, const Project& after);
 
-/// What design, load and mesh have become since results were computed, for the notes beside them: "block size along x
-/// 30 -> 31 mm since"; at most two such things by name. Empty where nothing changed that can be said.
+/// How design, load and mesh have changed since results were computed, for the notes over them: "block size along x
+/// 30 -> 31 mm since"; at most two such changes by name. Empty where nothing changed.
 QString sinceWords(const Project& then, const Project& now);
 
 } // namespace palp

@@ -103,7 +103,7 @@ QPainterPath AreaPlan::outline(const Indenter& indenter) const {
 
 std::optional<LoadPlace> AreaPlan::at(const QPointF& where) const {
   for (std::size_t k = load_.indenters.size(); k-- > 0;) {
-    // Of a body that covers much of the face its middle is taken: areas and discs can be chosen beside it.
+    // A body that covers much of the face is selected at its middle: areas and discs around it stay selectable.
     const QPointF way = where - place(load_.indenters[k].place_mm);
     const double reach = std::clamp(scale() * load_.indenters[k].radius_mm, kSmallestDisc_px, kLargestGrip_px);
     if (std::hypot(way.x(), way.y()) <= reach) return LoadPlace{LoadKind::Indenter, static_cast<int>(k)};
@@ -164,7 +164,7 @@ void AreaPlan::mousePressEvent(QMouseEvent* event) {
   const auto load = at(event->position());
   if (!load || event->button() != Qt::LeftButton) return;
   if (event->modifiers().testFlag(Qt::ShiftModifier))
-    emit takenAway(*load);
+    emit removed(*load);
   else
     emit chosen(*load);
 }
@@ -194,7 +194,7 @@ void AreaPlan::keyPressEvent(QKeyEvent* event) {
     return;
   case Qt::Key_Delete:
   case Qt::Key_Backspace:
-    emit takenAway(chosen_);
+    emit removed(chosen_);
     return;
   default:
     QWidget::keyPressEvent(event);

@@ -34,7 +34,7 @@ public:
 
 signals:
   void chosen(const palp::LoadPlace& load);
-  void takenAway(const palp::LoadPlace& load);
+  void removed(const palp::LoadPlace& load);
 
 protected:
   void paintEvent(QPaintEvent* event) override;

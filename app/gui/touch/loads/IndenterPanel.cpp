@@ -1,5 +1,6 @@
 #include "app/gui/touch/loads/IndenterPanel.h"
 
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/ShapeWords.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
@@ -61,11 +62,10 @@ QIcon picture(IndenterShape shape, const QPalette& colors, double ratio) {
 IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
   auto* form = new QFormLayout(this);
   form->setContentsMargins(0, 0, 0, 0);
-  shape_ = new QComboBox;
-  shape_->setObjectName("indenterShape");
-  shape_->setAccessibleName(tr("Shape of the indenter"));
-  shape_->setToolTip(tr("Shape of the rigid indenter. Pin and punch are upright; cylinders extend across the complete "
-                        "block. The sensor's own top face is always flat."));
+  shape_ = choiceBox("indenterShape", {},
+                     tr("Shape of the rigid indenter. Pin and punch are upright; cylinders extend across the complete "
+                        "block. The sensor's own top face is always flat."),
+                     tr("Shape of the indenter"));
   shape_->setIconSize({kPictureWidth_px, kPictureHeight_px});
   for (const auto& [shape, name] : kIndenterShapes.all()) shape_->addItem(inWords(shape));
   drawShapes();
@@ -81,12 +81,10 @@ IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
   friction_ = addNumber(*form, "indenterFriction", tr("Friction"), {},
                         tr("Coulomb's coefficient of friction, 0 to 2; a tangential force needs it. A solve with "
                            "friction takes several times as long."));
-  control_ = new QComboBox;
-  control_->setObjectName("indenterControl");
-  control_->setAccessibleName(tr("Control of the indenter"));
-  control_->addItems({tr("Force"), tr("Displacement")});
-  control_->setToolTip(tr("Force control prescribes a force along x, y and z. Displacement control prescribes a depth "
-                          "from the first contact and a tangential shift after it."));
+  control_ = choiceBox("indenterControl", {tr("Force"), tr("Displacement")},
+                       tr("Force control prescribes a force along x, y and z. Displacement control prescribes a depth "
+                          "from the first contact and a tangential shift after it."),
+                       tr("Control of the indenter"));
   form->addRow(tr("Control"), control_);
   depth_ = addNumber(*form, "indenterDepth", tr("Depth"), tr(" mm"),
                      tr("Depth from the first contact with the top face at rest"));
@@ -99,14 +97,7 @@ IndenterPanel::IndenterPanel(QWidget* parent) : QWidget(parent) {
 
 QDoubleSpinBox* IndenterPanel::addNumber(QFormLayout& form, const char* name, const QString& label, const QString& unit,
                                          const QString& tip) {
-  auto* box = new NumberBox;
-  box->setObjectName(name);
-  box->setAccessibleName(tr("Indenter, %1").arg(label));
-  box->setDecimals(3);
-  box->setSingleStep(0.1);
-  box->setSuffix(unit);
-  box->setKeyboardTracking(false);
-  box->setToolTip(tip);
+  auto* box = numberBox(name, {.decimals = 3, .step = 0.1, .unit = unit}, tip, tr("Indenter, %1").arg(label));
   form.addRow(label, box);
   connect(box, &QDoubleSpinBox::valueChanged, this, &IndenterPanel::read);
   return box;

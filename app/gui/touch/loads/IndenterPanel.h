@@ -11,7 +11,7 @@ class QFormLayout;
 
 namespace palp {
 
-/// Shape, size, place, friction and motion of one indenter; of one that is pressed, the force stands elsewhere.
+/// Shape, size, place, friction and motion of one indenter; of one under force control, the force is elsewhere.
 class IndenterPanel : public QWidget {
   Q_OBJECT
 

@@ -2,6 +2,7 @@
 
 #include "app/gui/touch/loads/IndenterPanel.h"
 #include "app/gui/views/DiscHandle.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/Markup.h"
 #include "app/gui/widgets/SpinBoxes.h"
 
@@ -39,7 +40,7 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   plan_->setToolTip(tr("Load areas and discs seen from above; click to select, Shift-click to remove the load"));
   column->addWidget(plan_);
   connect(plan_, &AreaPlan::chosen, this, &LoadPanel::choose);
-  connect(plan_, &AreaPlan::takenAway, this, &LoadPanel::takeAway);
+  connect(plan_, &AreaPlan::removed, this, &LoadPanel::takeAway);
   buildChoice();
   buildForces();
   buildDisc();
@@ -48,23 +49,15 @@ LoadPanel::LoadPanel(QWidget* parent) : QWidget(parent) {
   connect(indenter_, &IndenterPanel::edited, this, [this](const Indenter& to) {
     if (chosenIndenter() != nullptr) setIndenter(chosen_.number, to);
   });
-  problem_ = new QLabel;
-  problem_->setObjectName("loadProblem");
-  problem_->setProperty("role", "problem");
-  problem_->setWordWrap(true);
+  problem_ = textLabel("loadProblem", "problem");
   column->addWidget(problem_);
 }
 
 void LoadPanel::buildChoice() {
   auto* column = static_cast<QVBoxLayout*>(layout());
-  together_ = new QLabel;
-  together_->setObjectName("loadsTogether");
-  together_->setWordWrap(true);
+  together_ = textLabel("loadsTogether");
   column->addWidget(together_);
-  list_ = new QComboBox;
-  list_->setObjectName("loads");
-  list_->setAccessibleName(tr("Loads"));
-  list_->setToolTip(tr("All loads of this touch, which act together"));
+  list_ = choiceBox("loads", {}, tr("All loads of this touch, which act together"), tr("Loads"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list_->setMinimumContentsLength(12);
   column->addWidget(list_);
@@ -72,19 +65,15 @@ void LoadPanel::buildChoice() {
     if (k < static_cast<int>(places().size())) choose(places()[static_cast<std::size_t>(k)]);
   });
   auto* row = new QHBoxLayout;
-  auto* add = new QPushButton(tr("Disc"));
-  add->setObjectName("addDisc");
-  add->setToolTip(tr("Adds a round load anywhere on the top face; in the view, use the tool Press a disc (key D)"));
-  clear_ = new QPushButton(tr("Remove"));
-  clear_->setObjectName("clearLoad");
-  clear_->setToolTip(tr("Removes the selected load"));
-  auto* press = new QPushButton(tr("Indenter"));
-  press->setObjectName("addIndenter");
-  press->setToolTip(tr("Adds a rigid body that presses anywhere on the top face, with or without friction; in the "
-                       "view, use the tool Indenter (key I)"));
-  row->addWidget(add);
-  row->addWidget(press);
-  row->addWidget(clear_);
+  auto* add =
+      pushButton(tr("Disc"), "addDisc",
+                 tr("Adds a round load anywhere on the top face; in the view, use the tool Press a disc (key D)"));
+  clear_ = pushButton(tr("Remove"), "clearLoad", tr("Removes the selected load"));
+  auto* press =
+      pushButton(tr("Indenter"), "addIndenter",
+                 tr("Adds a rigid body that presses anywhere on the top face, with or without friction; in the "
+                    "view, use the tool Indenter (key I)"));
+  addTo(*row, {add, press, clear_});
   connect(press, &QPushButton::clicked, this, [this] { addIndenter(0.5 * design_.block_mm.head<2>()); });
   column->addLayout(row);
   connect(add, &QPushButton::clicked, this, [this] { addDisc(0.5 * design_.block_mm.head<2>()); });
@@ -101,16 +90,11 @@ void LoadPanel::buildForces() {
   grid->setContentsMargins(0, 0, 0, 0);
   for (int d = 0; d < 3; ++d) {
     const auto k = static_cast<std::size_t>(d);
-    spins_[k] = new NumberBox;
-    spins_[k]->setObjectName(QString("force_%1").arg(kDirections[k]));
-    spins_[k]->setRange(-kMostForce_N, kMostForce_N);
-    spins_[k]->setDecimals(3);
-    spins_[k]->setSingleStep(0.1);
-    spins_[k]->setSuffix(tr(" N"));
-    spins_[k]->setKeyboardTracking(false);
-    spins_[k]->setAccessibleName(tr("Force along %1").arg(kDirections[k]));
-    spins_[k]->setToolTip(
-        tr("Force along %1 of the selected load [N]; the slider covers the design's force range").arg(kDirections[k]));
+    spins_[k] = numberBox(
+        QString("force_%1").arg(kDirections[k]),
+        {.low = -kMostForce_N, .high = kMostForce_N, .decimals = 3, .step = 0.1, .unit = tr(" N")},
+        tr("Force along %1 of the selected load [N]; the slider covers the design's force range").arg(kDirections[k]),
+        tr("Force along %1").arg(kDirections[k]));
     sliders_[k] = new QSlider(Qt::Horizontal);
     sliders_[k]->setObjectName(QString("slider_%1").arg(kDirections[k]));
     sliders_[k]->setAccessibleName(spins_[k]->accessibleName());

@@ -37,7 +37,7 @@ public:
   void moveIndenter(int indenter, const Eigen::Vector2d& place_mm);
   void sizeIndenter(int indenter, double radius_mm);
   void takeAway(const LoadPlace& place);
-  /// A click on the top face: a new disc or indenter, or the one that lies there is taken away (Shift was held: else it
+  /// A click on the top face: a new disc or indenter, or the one there is removed (Shift was held: else it
   /// would have been dragged).
   void pressDisc(const Eigen::Vector2d& place_mm);
   void pressIndenter(const Eigen::Vector2d& place_mm);
@@ -67,7 +67,7 @@ private:
   LoadCase load_;
   LoadPlace chosen_;
   AreaPlan* plan_ = nullptr;
-  QLabel* together_ = nullptr; ///< all loads in words
+  QLabel* together_ = nullptr; ///< all loads as text
   QComboBox* list_ = nullptr;
   QLabel* title_ = nullptr;
   QPushButton* clear_ = nullptr;

@@ -1,6 +1,7 @@
 #include "app/gui/touch/loads/PathPanel.h"
 
 #include "app/gui/widgets/FileDialogs.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "app/gui/widgets/SpinBoxes.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
@@ -22,10 +23,10 @@ namespace {
 
 constexpr int kDrawnSteps = 8;
 constexpr int kAroundLine_px = 8; ///< in a row of the table
-constexpr int kToldColumns = 3, kFoundColumns = 5;
+constexpr int kPrescribedColumns = 3, kFoundColumns = 5;
 constexpr double kUnknownDepth_mm = 0.2; ///< of a force that was not solved yet
 
-std::array<double, 3> toldBy(const std::variant<Press, Motion>& control) {
+std::array<double, 3> prescribedBy(const std::variant<Press, Motion>& control) {
   if (const Press* press = std::get_if<Press>(&control))
     return {press->force_N.x(), press->force_N.y(), press->force_N.z()};
   const Motion& motion = std::get<Motion>(control);
@@ -51,9 +52,7 @@ const IndenterState* stateAtEnd(const Solution* solution, int load, int indenter
 PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), workbench_(workbench) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
-  words_ = new QLabel;
-  words_->setObjectName("pathHint");
-  words_->setWordWrap(true);
+  words_ = textLabel("pathHint");
   column->addWidget(words_);
   table_ = new QTableWidget;
   table_->setObjectName("pathSteps");
@@ -66,9 +65,7 @@ PathPanel::PathPanel(Workbench& workbench, QWidget* parent) : QWidget(parent), w
   column->addWidget(table_, 1);
   auto* row = new QHBoxLayout;
   const auto button = [&](const QString& text, const char* name, const QString& tip, void (PathPanel::*slot)()) {
-    auto* made = new QPushButton(text);
-    made->setObjectName(name);
-    made->setToolTip(tip);
+    auto* made = pushButton(text, name, tip);
     connect(made, &QPushButton::clicked, this, slot);
     row->addWidget(made);
     return made;
@@ -174,9 +171,9 @@ void PathPanel::save() {
 
 void PathPanel::readCell(int row, int column) {
   std::optional<IndenterPath> path = workbench_.project().path;
-  if (displaying_ || !path || row < 1 || column < 1 || column > kToldColumns) return;
+  if (displaying_ || !path || row < 1 || column < 1 || column > kPrescribedColumns) return;
   auto& step = path->steps[static_cast<std::size_t>(row - 1)];
-  std::array<double, 3> told = toldBy(step);
+  std::array<double, 3> told = prescribedBy(step);
   const auto typed = typedNumber(table_->item(row, column)->text());
   const std::variant<Press, Motion> before = step;
   if (typed) {
@@ -221,14 +218,14 @@ void PathPanel::display() {
   table_->setRowCount(its == nullptr ? 0 : 1 + steps);
   for (int row = 0; row < table_->rowCount(); ++row) {
     const std::array<double, 3> told =
-        toldBy(row == 0 ? its->control : project.path->steps[static_cast<std::size_t>(row - 1)]);
+        prescribedBy(row == 0 ? its->control : project.path->steps[static_cast<std::size_t>(row - 1)]);
     for (int column = 0; column < table_->columnCount(); ++column) {
       auto* cell = new QTableWidgetItem;
-      const bool editable = row > 0 && column > 0 && column <= kToldColumns;
+      const bool editable = row > 0 && column > 0 && column <= kPrescribedColumns;
       if (!editable) cell->setFlags(cell->flags() & ~Qt::ItemIsEditable);
       cell->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
       if (column == 0) cell->setText(QString::number(row));
-      if (column > 0 && column <= kToldColumns)
+      if (column > 0 && column <= kPrescribedColumns)
         cell->setText(QString::number(told[static_cast<std::size_t>(column - 1)], 'g', 6));
       table_->setItem(row, column, cell);
     }
@@ -240,7 +237,7 @@ void PathPanel::display() {
 }
 
 void PathPanel::displayFound() {
-  if (!isVisible() || table_->columnCount() <= kToldColumns) return;
+  if (!isVisible() || table_->columnCount() <= kPrescribedColumns) return;
   displaying_ = true;
   const TouchSession& touch = workbench_.touch();
   const Solution* solution = touch.upToDate() ? touch.touch().solution() : nullptr;
@@ -254,7 +251,7 @@ void PathPanel::displayFound() {
         const double value = values[static_cast<std::size_t>(k)];
         text = QString::number(k < 3 && std::abs(value) < 1e-6 * found->force_N.norm() ? 0 : value, 'g', 4);
       }
-      table_->item(row, 1 + kToldColumns + k)->setText(text);
+      table_->item(row, 1 + kPrescribedColumns + k)->setText(text);
     }
   }
   table_->resizeColumnsToContents();

@@ -1,6 +1,5 @@
 #include "app/gui/window/help/HelpDialog.h"
 
-#include "app/gui/window/help/HelpLook.h"
 #include "app/gui/window/help/HelpPages.h"
 #include "app/gui/window/help/HelpTopics.h"
 #include "model/base/Error.h"
@@ -10,16 +9,22 @@
 #include <QDir>
 #include <QEvent>
 #include <QFileInfo>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMessageBox>
+#include <QPalette>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTextBlock>
 #include <QTextBrowser>
+#include <QTextCursor>
 #include <QTextDocument>
+#include <QUrl>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace palp {
 
@@ -28,10 +33,53 @@ namespace {
 constexpr int kFileRole = Qt::UserRole;
 constexpr int kHeadingRole = Qt::UserRole + 1;
 constexpr int kListWidth_px = 230;
-constexpr int kPicture_px = 800;     // beside the list
+constexpr int kPicture_px = 800;     // next to the list
 constexpr qsizetype kFewLetters = 3; // fewer are a word that is being typed: no page is opened for each
 constexpr qsizetype kMostTinted = 200;
 constexpr int kShownText = 300; // letters of a topic that was found, in its tool tip
+
+constexpr qreal kCodeIndent_px = 12;
+constexpr qreal kCodeGap_px = 10;
+
+bool isCode(const QTextBlock& block) {
+  return block.isValid() && block.blockFormat().hasProperty(QTextFormat::BlockCodeFence);
+}
+
+/// Both belong to one fenced block.
+bool sameCode(const QTextBlock& a, const QTextBlock& b) {
+  const auto language = QTextFormat::BlockCodeLanguage;
+  return isCode(a) && isCode(b) && a.blockFormat().property(language) == b.blockFormat().property(language);
+}
+
+void narrowPictures(QTextDocument& page, const QTextBlock& block, int width_px) {
+  for (auto at = block.begin(); !at.atEnd(); ++at) {
+    if (!at.fragment().charFormat().isImageFormat()) continue;
+    QTextImageFormat format = at.fragment().charFormat().toImageFormat();
+    const auto picture = page.resource(QTextDocument::ImageResource, QUrl(format.name())).value<QImage>();
+    if (picture.width() <= width_px) continue;
+    format.setWidth(width_px);
+    QTextCursor cursor(block);
+    cursor.setPosition(at.fragment().position());
+    cursor.setPosition(at.fragment().position() + at.fragment().length(), QTextCursor::KeepAnchor);
+    cursor.setCharFormat(format);
+    return; // the fragments are made anew
+  }
+}
+
+/// What Qt leaves out of a Markdown page: blocks of code get a background of their own, apart from what they print
+/// and from the text, and no picture is wider than the page.
+void layOutHelp(QTextDocument& page, int width_px, const QPalette& palette) {
+  for (QTextBlock block = page.begin(); block.isValid(); block = block.next()) {
+    narrowPictures(page, block, width_px);
+    if (!isCode(block)) continue;
+    QTextBlockFormat format = block.blockFormat();
+    format.setBackground(palette.alternateBase());
+    format.setLeftMargin(kCodeIndent_px);
+    format.setTopMargin(sameCode(block.previous(), block) ? 0 : kCodeGap_px);
+    format.setBottomMargin(sameCode(block, block.next()) ? 0 : kCodeGap_px);
+    QTextCursor(block).setBlockFormat(format);
+  }
+}
 
 class HelpDialog : public QDialog {
 public:
@@ -40,7 +88,7 @@ public:
     setWindowTitle(tr("Palp: help"));
     resize(1110, 720);
     list_->setObjectName("helpPages");
-    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff); // a long title is cut, and whole in its tooltip
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff); // a long title is cut, and complete in its tooltip
     for (const auto& [title, file] : helpPages()) {
       auto* item = new QListWidgetItem(title, list_);
       item->setData(kFileRole, file);
@@ -110,7 +158,7 @@ private:
     });
   }
 
-  /// The topics with these words stand in place of the pages until the words are gone.
+  /// The topics with these words replace the pages until the words are deleted.
   void search(const QString& words) {
     const QList<HelpTopic> topics = topicsWith(topics_, words);
     const bool any = !words.trimmed().isEmpty();

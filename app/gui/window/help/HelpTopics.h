@@ -6,7 +6,7 @@
 
 namespace palp {
 
-/// What stands under one heading of a page of the help.
+/// The text under one heading of a page of the help.
 struct HelpTopic {
   QString page;    ///< title of the page
   QString file;    ///< absolute
@@ -23,7 +23,7 @@ QList<HelpTopic> topicsOf(const QString& page, const QString& file);
 QList<QRegularExpression> searchPatterns(const QString& words);
 
 /// The topics that contain all words: first those with all in heading and synonyms, then the rest, each in the order of
-/// the pages. None without a word.
+/// the pages. None for an empty query.
 QList<HelpTopic> topicsWith(const QList<HelpTopic>& topics, const QString& words);
 
 } // namespace palp

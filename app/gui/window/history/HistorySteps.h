@@ -12,7 +12,7 @@ class MainWindow;
 class Workbench;
 
 /// Nothing is undone or done again unseen: leads to the scene where the edit was made, unless the scene that is shown
-/// shows the change too. Several steps at once (a click in the history) are looked at as one.
+/// shows the change too. Several steps together (a click in the history) count as one.
 class HistorySteps : public QObject {
   Q_OBJECT
 

@@ -12,12 +12,12 @@ class vtkRenderer;
 
 namespace palp {
 
-/// The current's way as coloured lines in the block.
+/// The current paths as coloured lines in the block.
 class CurrentActor {
 public:
   explicit CurrentActor(vtkRenderer& renderer);
 
-  /// Displacements drawn `warp` times as large; null draws none.
+  /// Displacements drawn this many times as large; null draws none.
   void show(const CurrentLines* current, double warp, const ColorScale& colors, double width_px);
 
 private:

@@ -22,7 +22,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kLines = 200;            ///< about so many in all
+constexpr double kLines = 200;            ///< in total, about
 constexpr Eigen::Index kLinesAtOnce = 20; ///< a stop is looked at between them
 /// From an electrode's middle, in its radii: outside of the sphere, and of the node there, where nothing flows.
 constexpr double kBegin = 2.5, kEnd = 1.5;

@@ -14,7 +14,7 @@ struct CurrentLines {
   int rowWire = 0;
   int columnWire = 0;
   Eigen::Matrix3Xd places_mm;       ///< in the deformed block
-  Eigen::Matrix3Xd displacement_mm; ///< of the rubber that is there
+  Eigen::Matrix3Xd displacement_mm; ///< of the existing rubber
   std::vector<double> density;      ///< current density [A/mm2] for 1 A driven into the row-wire
   std::vector<std::vector<int>> lines;
   double current_A = 0; ///< of each line, for 1 A driven into the row-wire

@@ -23,7 +23,7 @@ constexpr double kSmall_N = 0.1;
 constexpr double kRounding = 1e-9;
 constexpr double kWordGap_mm = 0.7; // between an arrow's end and its words
 
-/// Three digits; what is only left of rounding beside the others is 0.
+/// Three digits; what is rounding compared with the other components is 0.
 std::string forceText(const Eigen::Vector3d& force_N) {
   const double least_N = kRounding * force_N.norm();
   const Eigen::Array3d shown_N = (force_N.array().abs() < least_N).select(0, force_N.array());

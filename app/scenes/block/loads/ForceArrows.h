@@ -20,7 +20,7 @@ struct PlacedForce {
   Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   int load = 0;        ///< place in the load case: areas first, then patches, then indenters
-  bool hidden = false; ///< stands on what is cut away
+  bool hidden = false; ///< on the part that is cut away
   bool movable = true; ///< by the mouse: the load gives it, not the solve
 
   /// The end of its arrow that is not on the surface: a push ends on the surface, a pull starts there.
@@ -39,7 +39,7 @@ public:
   /// `fixedDigits`: forces that change from frame to frame keep their decimals.
   void showToScale(const std::vector<PlacedForce>& forces, double mm_per_N, const Color& color,
                    bool fixedDigits = false);
-  /// The forces in words, each at its arrow's free end.
+  /// The forces as text, each at its arrow's free end.
   [[nodiscard]] const std::vector<PlacedText>& words() const { return words_; }
 
 private:

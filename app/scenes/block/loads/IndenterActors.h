@@ -12,7 +12,7 @@ class vtkPolyData;
 namespace palp {
 
 /// The indenters of a load, seen through, where they press: their tips move as far as the displacements are drawn. Of a
-/// body that is large beside the block its lowest part is drawn.
+/// body that is large compared with the block its lowest part is drawn.
 class IndenterActors {
 public:
   explicit IndenterActors(vtkRenderer& renderer);

@@ -207,7 +207,7 @@ TEST_F(DesignStudies, CompareADesignAtOnceWithTheOneBeforeTheLastChange) {
   EXPECT_FALSE(find<QLabel>("comparisonState").isHidden()) << "the table is of the other one";
   QTest::mouseClick(&find<QPushButton>("keptFields"), Qt::LeftButton);
   EXPECT_EQ(workbench.project().kept, paperDesign());
-  EXPECT_TRUE(workbench.project().view.lessKept);
+  EXPECT_TRUE(workbench.project().view.lessReference);
   EXPECT_EQ(window.currentScene().objectName(), "deformation");
 }
 

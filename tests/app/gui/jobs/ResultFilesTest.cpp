@@ -249,7 +249,7 @@ TEST_F(ResultFilesTest, OnlyANetworkThatWasTakenAwayLeavesTheFolder) {
   results.kept.clear(); // of another design, or never read
   saveResults(folder(), results, resultFiles(folder()));
   EXPECT_EQ(opened().results.kept.size(), 2U);
-  results.takenAway = {made_.kept[1]->made};
+  results.removed = {made_.kept[1]->made};
   saveResults(folder(), results, resultFiles(folder()));
   ASSERT_EQ(opened().results.kept.size(), 1U);
   EXPECT_EQ(opened().results.kept[0]->made, made_.kept[0]->made);

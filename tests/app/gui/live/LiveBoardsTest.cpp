@@ -229,8 +229,8 @@ TEST_F(TwoBoards, LabelledFramesAndACalibratedNetworkAreNotLostWithTheirBoardWit
   answerQuestion(QMessageBox::No);
   click(1, "takeBoardAway");
   EXPECT_EQ(scene.count(), 2U);
-  ASSERT_TRUE(wait([&] { return scene.page(0).host().decoder().has_value(); }));
-  scene.page(0).host().useDecoder(*scene.page(0).host().decoder(), "calibrated, 8 frames");
+  ASSERT_TRUE(wait([&] { return scene.page(0).host().network().decoder().has_value(); }));
+  scene.page(0).host().network().refine(*scene.page(0).host().network().decoder(), "calibrated, 8 frames");
   EXPECT_TRUE(scene.page(0).lossesByClosing().join(' ').contains("calibrated, 8 frames"));
 }
 

@@ -62,7 +62,7 @@ TEST_F(LiveBrokenBoard, ABrokenWireLeadsToANetworkThatDoesWithoutIt) {
   ASSERT_TRUE(wait([&] { return find<QPushButton>("otherRows").isVisible(); })) << banner().toStdString();
   EXPECT_TRUE(banner().startsWith("row-wire 3: open. ")) << banner().toStdString();
   EXPECT_TRUE(banner().contains("Network, Row-wires 0,1,2,4,5,6,7,8,9")) << banner().toStdString();
-  QSignalSpy scenes(&page, &LivePage::sceneAsked);
+  QSignalSpy scenes(&page, &LivePage::sceneRequested);
   click("otherRows");
   ASSERT_EQ(scenes.size(), 1);
   EXPECT_EQ(scenes[0][0].toString(), "network");
@@ -92,7 +92,7 @@ TEST_F(LiveBrokenBoard, AWireThatTheNetworkDoesNotReadIsNoAlarm) {
   auto& words = find<QLabel>("liveBanner");
   ASSERT_TRUE(wait([&] { return banner().startsWith("row-wire 3: open"); }));
   EXPECT_EQ(words.property("role"), "banner");
-  page.host().useDecoder(networkWithoutRow(3), "without row-wire 3");
+  page.host().network().refine(networkWithoutRow(3), "without row-wire 3");
   ASSERT_TRUE(wait([&] { return banner().contains("does not need it"); })) << banner().toStdString();
   EXPECT_TRUE(banner().startsWith("row-wire 3: open")) << banner().toStdString();
   EXPECT_EQ(words.property("role"), "note");

@@ -53,15 +53,15 @@ TEST_F(LiveCalibrating, GoesBackToTheNetworkBeforeACalibrationAndMarksBothInTheR
   ASSERT_TRUE(startsToRecord());
   ASSERT_TRUE(collect(9, -0.5));
   ASSERT_TRUE(fit());
-  const std::string before = page.host().decoder()->trainedWith;
+  const std::string before = page.host().network().decoder()->trainedWith;
   useFit();
   auto& name = find<QLabel>("networkName");
   EXPECT_TRUE(wait([&] { return name.text().startsWith("calibrated, 9 frames, 2"); })) << name.text().toStdString();
-  const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
+  const Eigen::MatrixXd calibrated_N = page.host().network().decoder()->residual_N;
   click("networkBack");
   EXPECT_TRUE(wait([&] { return name.text().startsWith("Built-in network"); })) << name.text().toStdString();
-  EXPECT_NE(page.host().decoder()->residual_N, calibrated_N);
-  EXPECT_EQ(page.host().decoder()->trainedWith, before);
+  EXPECT_NE(page.host().network().decoder()->residual_N, calibrated_N);
+  EXPECT_EQ(page.host().network().decoder()->trainedWith, before);
   ASSERT_TRUE(wait([&] { return !find<QPushButton>("shippedNetwork").isEnabled(); })) << "it is in use";
   ASSERT_TRUE(waitForFrames());
   ASSERT_TRUE(stopsToRecord());
@@ -77,25 +77,25 @@ TEST_F(LiveCalibrating, FramesAndNetworkInUseArePartOfTheProjectAndAnotherProjec
   ASSERT_TRUE(fit());
   useFit();
   ASSERT_NE(workbench.project().live.calibrated, nullptr);
-  const Eigen::MatrixXd calibrated_N = page.host().decoder()->residual_N;
+  const Eigen::MatrixXd calibrated_N = page.host().network().decoder()->residual_N;
   const Project saved = parseProject(projectText(workbench.project()), "x.json", {});
 
   workbench.replace(exampleProject());
-  EXPECT_TRUE(wait([&] { return page.host().calibrated() == nullptr && !page.host().loading(); }));
-  EXPECT_EQ(page.host().networkName(), "Built-in network");
-  EXPECT_EQ(page.host().networkBefore(), "") << "the network of the project before";
+  EXPECT_TRUE(wait([&] { return page.host().network().calibrated() == nullptr && !page.host().network().loading(); }));
+  EXPECT_EQ(page.host().network().name(), "Built-in network");
+  EXPECT_EQ(page.host().network().nameBefore(), "") << "the network of the project before";
   EXPECT_EQ(calibration().frames().samples().size(), 0);
   EXPECT_FALSE(calibration().calibration().has_value());
 
   workbench.replace(saved);
-  EXPECT_TRUE(wait([&] { return page.host().networkName().startsWith("calibrated, 9 frames"); }));
-  EXPECT_EQ(page.host().decoder()->residual_N, calibrated_N);
+  EXPECT_TRUE(wait([&] { return page.host().network().name().startsWith("calibrated, 9 frames"); }));
+  EXPECT_EQ(page.host().network().decoder()->residual_N, calibrated_N);
   EXPECT_EQ(calibration().frames().samples().size(), 9);
   EXPECT_FALSE(find<QTableWidget>("labelledFrames").item(8, 2)->text().isEmpty());
   EXPECT_FALSE(workbench.modified());
   ASSERT_TRUE(wait([&] { return find<QPushButton>("shippedNetwork").isEnabled(); }));
   click("shippedNetwork");
-  EXPECT_TRUE(wait([&] { return page.host().networkName() == "Built-in network"; }));
+  EXPECT_TRUE(wait([&] { return page.host().network().name() == "Built-in network"; }));
   EXPECT_EQ(workbench.project().live.calibrated, nullptr);
   EXPECT_TRUE(workbench.modified());
 }
@@ -248,7 +248,7 @@ TEST_F(LiveCalibrating, ANetworkThatCannotBeUsedLeavesTheOneInUse) {
   ASSERT_TRUE(isRed("networkProblem"));
   EXPECT_TRUE(find<QLabel>("networkProblem").text().contains("broken.json"));
   EXPECT_EQ(workbench.project().live.network, "");
-  EXPECT_TRUE(page.host().decoder().has_value());
+  EXPECT_TRUE(page.host().network().decoder().has_value());
   EXPECT_TRUE(find<QLabel>("networkName").text().startsWith("Built-in network"));
   ASSERT_TRUE(waitForFrames());
   EXPECT_TRUE(page.host().history().last()->forces.valid);
@@ -263,7 +263,7 @@ TEST_F(LiveCalibrating, TheNetworkOfPalpIsHadBackAfterOneThatWasRefined) {
   click("shippedNetwork");
   auto& name = find<QLabel>("networkName");
   EXPECT_TRUE(wait([&] { return name.text().startsWith("Built-in network"); })) << name.text().toStdString();
-  EXPECT_TRUE(page.host().networkBefore().isEmpty());
+  EXPECT_TRUE(page.host().network().nameBefore().isEmpty());
 }
 
 TEST_F(LiveCalibrating, ARecordingIsNamedWhereANetworkIsWanted) {
@@ -299,7 +299,7 @@ TEST_F(LiveCalibrating, TakesAKnownLoadAsAMassThatRestsOnTheAreaOrPullsItSideway
 TEST_F(LiveCalibrating, SuggestsThreeWeightsAndShowsWhatTheNetworkReadsBesideTheLabel) {
   ASSERT_TRUE(waitForArrow());
   page.findChild<QTabWidget*>("curveTabs")->setCurrentIndex(1);
-  const double most_N = -page.host().decoder()->low_N(2);
+  const double most_N = -page.host().network().decoder()->low_N(2);
   double before_N = most_N;
   for (const char* name : {"suggestedMass0", "suggestedMass1", "suggestedMass2"}) {
     click(name);

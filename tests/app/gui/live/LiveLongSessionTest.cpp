@@ -153,7 +153,7 @@ TEST_F(LiveInputs, ABrokenNetworkLeavesTheOneInUse) {
     use([&](LiveSettings& live) { live.network = file.toStdString(); });
     ASSERT_TRUE(wait([&] { return find<QLabel>("networkProblem").text().contains(QFileInfo(file).fileName()); }))
         << file.toStdString();
-    EXPECT_TRUE(page.host().decoder().has_value());
+    EXPECT_TRUE(page.host().network().decoder().has_value());
     EXPECT_EQ(workbench.project().live.network, "") << file.toStdString();
   }
   ASSERT_TRUE(waitForFrames());

@@ -54,9 +54,9 @@ TEST_F(LiveNewsOfABoard, ADriftIsSaidOnceAndNoTareCallsItOver) {
 
 TEST_F(LiveNewsOfABoard, AnotherNetworkIsLogged) {
   ASSERT_TRUE(waitForFrames());
-  ASSERT_TRUE(wait([&] { return page.host().decoder().has_value(); }));
+  ASSERT_TRUE(wait([&] { return page.host().network().decoder().has_value(); }));
   ASSERT_TRUE(said.filter("Network in use:").isEmpty());
-  page.host().useDecoder(*page.host().decoder(), "another one");
+  page.host().network().refine(*page.host().network().decoder(), "another one");
   EXPECT_TRUE(hears("Network in use: another one."));
 }
 

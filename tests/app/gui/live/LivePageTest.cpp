@@ -1,7 +1,7 @@
 #include "app/gui/live/LivePage.h"
 
 #include "app/gui/live/LiveCalibration.h"
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/live/LiveView.h"
 #include "app/gui/views/HeatmapView.h"
 #include "app/gui/views/StripChart.h"

@@ -94,7 +94,7 @@ TEST_F(NetworkList, TakesAwayAllThatAreMarkedAndBringsThemBackToWhereTheyWere) {
   EXPECT_EQ(network.kept()[0], kept[1]);
   QTest::mouseClick(&find<QPushButton>("bringBack"), Qt::LeftButton);
   EXPECT_EQ(network.kept(), kept);
-  EXPECT_TRUE(network.results().takenAway.empty());
+  EXPECT_TRUE(network.results().removed.empty());
   EXPECT_FALSE(find<QPushButton>("bringBack").isEnabled());
 }
 

@@ -117,7 +117,7 @@ TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   // Another one into the same file: Live reads it again.
   auto& host = find<LiveBoards>("live").page().host();
   ASSERT_TRUE(idle());
-  ASSERT_EQ(host.decoder()->kind, DecoderKind::Rbf);
+  ASSERT_EQ(host.network().decoder()->kind, DecoderKind::Rbf);
   window.showScene("network");
   find<QComboBox>("decoder").setCurrentText("linear");
   ASSERT_TRUE(QTest::qWaitFor([&] { return network.fit()->settings.decoder == DecoderKind::Linear; }, kPatience_ms));
@@ -130,18 +130,18 @@ TEST_F(NetworkScene, ANetworkOfResistancesGoesToLiveByOneButton) {
   });
   yes.start(20);
   QTest::mouseClick(&button, Qt::LeftButton);
-  EXPECT_TRUE(QTest::qWaitFor([&] { return host.decoder()->kind == DecoderKind::Linear; }, kPatience_ms));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return host.network().decoder()->kind == DecoderKind::Linear; }, kPatience_ms));
 
   // The network that Live began with comes back by its button, and the project says so.
   Project own = workbench.project();
   own.live.network.clear();
   workbench.edit("Palp's own", own);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return host.networkFile().empty(); }, kPatience_ms));
-  ASSERT_EQ(host.networkBefore(), "hand.json");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return host.network().file().empty(); }, kPatience_ms));
+  ASSERT_EQ(host.network().nameBefore(), "hand.json");
   auto& back = find<QPushButton>("networkBack");
   ASSERT_TRUE(QTest::qWaitFor([&] { return back.isEnabled(); }, kPatience_ms));
   QTest::mouseClick(&back, Qt::LeftButton);
-  EXPECT_EQ(host.decoder()->kind, DecoderKind::Linear);
+  EXPECT_EQ(host.network().decoder()->kind, DecoderKind::Linear);
   EXPECT_EQ(workbench.project().live.network, file.toStdString());
 }
 

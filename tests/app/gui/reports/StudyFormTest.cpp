@@ -31,7 +31,7 @@ protected:
     edit.setText(folder.path());
     QTest::keyClick(&edit, Qt::Key_Return);
     auto& kinds = find<QComboBox>("reportKind");
-    kinds.setCurrentIndex(kinds.findText("study of many designs"));
+    kinds.setCurrentIndex(kinds.findText("Study of many designs"));
     only("displacement");
   }
   void click(const char* button) { QTest::mouseClick(&find<QPushButton>(button), Qt::LeftButton); }

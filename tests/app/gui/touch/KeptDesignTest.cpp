@@ -1,5 +1,5 @@
-#include "app/gui/jobs/KeptTouch.h"
 #include "app/gui/jobs/MatchedLoad.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 #include "app/gui/project/ProjectFile.h"
 #include "app/gui/views/BlockView.h"
 #include "app/gui/views/ChartView.h"
@@ -34,21 +34,21 @@ Touch solvedTouch(const SensorDesign& design, const std::array<int, 3>& mapped) 
   return touch;
 }
 
-TEST(KeptPath, OfTheSameDesignIsTheSameFieldToRounding) {
+TEST(ReferencePath, OfTheSameDesignIsTheSameFieldToRounding) {
   const Touch shown = solvedTouch(paperDesign(), {6, 6, 2});
   const NodalFields own = shown.problem()->fields(shown.solution()->state());
-  const NodalFields kept = keptPath(paperDesign(), shown, {}).at(1).fields;
+  const NodalFields kept = referencePath(paperDesign(), shown, {}).at(1).fields;
   const double largest = own.displacement_mm.cwiseAbs().maxCoeff();
   EXPECT_LT((kept.displacement_mm - own.displacement_mm).cwiseAbs().maxCoeff(), 1e-9 * largest);
   EXPECT_LT((kept.cauchy_MPa - own.cauchy_MPa).cwiseAbs().maxCoeff(), 1e-9 * own.cauchy_MPa.cwiseAbs().maxCoeff());
   EXPECT_LT((kept.volumeRatio - own.volumeRatio).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(KeptPath, OfABlockOfAnotherSizeIsReadAtTheSameSharesOfItsSides) {
+TEST(ReferencePath, OfABlockOfAnotherSizeIsReadAtTheSameSharesOfItsSides) {
   SensorDesign thicker = paperDesign();
   thicker.block_mm.z() = 8;
   const Touch shown = solvedTouch(thicker, {6, 6, 2}), alone = solvedTouch(paperDesign(), {6, 6, 2});
-  const KeptPath path = keptPath(paperDesign(), shown, {});
+  const ReferencePath path = referencePath(paperDesign(), shown, {});
   const NodalFields own = alone.problem()->fields(alone.solution()->state());
   // Both meshes are the same lattice of shares: node by node.
   EXPECT_LT((path.at(1).fields.displacement_mm - own.displacement_mm).cwiseAbs().maxCoeff(),
@@ -56,7 +56,7 @@ TEST(KeptPath, OfABlockOfAnotherSizeIsReadAtTheSameSharesOfItsSides) {
   EXPECT_TRUE(path.at(1).electrodes.upper_mm.isApprox(alone.displacements()->upper_mm, 1e-12));
 }
 
-TEST(KeptPath, OfABlockOfAnotherSizeIsPressedAtTheSameSharesOfItsSides) {
+TEST(ReferencePath, OfABlockOfAnotherSizeIsPressedAtTheSameSharesOfItsSides) {
   SensorDesign wide = paperDesign();
   wide.block_mm = {40, 45, 8};
   LoadCase load;
@@ -71,7 +71,7 @@ TEST(KeptPath, OfABlockOfAnotherSizeIsPressedAtTheSameSharesOfItsSides) {
   mesh.mapped = {8, 8, 2};
   Touch shown(wide, load, mesh);
   ASSERT_TRUE(shown.advance(Stage::Resistances));
-  const KeptPath path = keptPath(paperDesign(), shown, {});
+  const ReferencePath path = referencePath(paperDesign(), shown, {});
   EXPECT_EQ(path.load, matched);
   // Both sink most at the same share of their sides: nothing is left of one that is pressed elsewhere.
   const auto deepest = [&](const NodalFields& fields) {
@@ -83,24 +83,24 @@ TEST(KeptPath, OfABlockOfAnotherSizeIsPressedAtTheSameSharesOfItsSides) {
             1.5 / 8); // a cell of the mesh
 }
 
-TEST(KeptPath, IsRefusedInASentenceWhereItsLoadAreasAreOtherPlaces) {
+TEST(ReferencePath, IsRefusedInASentenceWhereItsLoadAreasAreOtherPlaces) {
   const Touch shown = solvedTouch(paperDesign(), {6, 6, 2});
   SensorDesign four = paperDesign();
   four.areas = {2, 2};
   try {
-    keptPath(four, shown, {});
+    referencePath(four, shown, {});
     FAIL() << "area 1 is another place there";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("another position"), std::string::npos) << error.what();
   }
 }
 
-TEST(KeptPath, IsRefusedInASentenceWhereTheKeptDesignHasNoSuchArea) {
+TEST(ReferencePath, IsRefusedInASentenceWhereTheKeptDesignHasNoSuchArea) {
   const Touch shown = solvedTouch(paperDesign(), {6, 6, 2});
   SensorDesign one = paperDesign();
   one.areas = {1, 1};
   try {
-    keptPath(one, shown, {});
+    referencePath(one, shown, {});
     FAIL() << "the load is on area 1";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("reference design"), std::string::npos) << error.what();
@@ -119,10 +119,11 @@ protected:
     workbench.edit("softer", next);
   }
   bool compared() {
-    return QTest::qWaitFor([&] { return solved() && workbench.keptPath() != nullptr && !window.busy(); }, kPatience_ms);
+    return QTest::qWaitFor([&] { return solved() && workbench.referencePath() != nullptr && !window.busy(); },
+                           kPatience_ms);
   }
   double largestDifference(Quantity quantity) {
-    const auto path = workbench.keptPath();
+    const auto path = workbench.referencePath();
     const std::vector<double> values = quantityValues(quantity, *workbench.touch().fields(), path->at(1).fields);
     double largest = 0;
     for (const double value : values) largest = std::max(largest, std::abs(value));
@@ -134,7 +135,7 @@ TEST_F(KeptDesign, IsSubtractedFromTheBlockOnTheDeformationScene) {
   ASSERT_TRUE(solved());
   EXPECT_FALSE(find<QCheckBox>("lessKept").isEnabled()) << "nothing is kept";
   keepAndSoften();
-  EXPECT_EQ(workbench.keptPath(), nullptr) << "what no scene shows is not computed";
+  EXPECT_EQ(workbench.referencePath(), nullptr) << "what no scene shows is not computed";
   QTest::mouseClick(&find<QPushButton>("keptFields"), Qt::LeftButton);
   EXPECT_EQ(window.currentScene().objectName(), "deformation");
   ASSERT_TRUE(compared());
@@ -199,7 +200,7 @@ TEST_F(KeptDesign, ThatCannotBearTheLoadIsSaidBesideTheResult) {
   Project next = workbench.project();
   next.kept = paperDesign();
   next.kept->areas = {1, 1};
-  next.view.lessKept = true;
+  next.view.lessReference = true;
   workbench.edit("one area", next);
   ASSERT_TRUE(solved());
   ASSERT_TRUE(QTest::qWaitFor([&] { return !workbench.kept().problem().isEmpty(); }, kPatience_ms));
@@ -213,7 +214,7 @@ TEST_F(KeptDesign, IsSubtractedFromTheHeatmapOfTheResistances) {
   window.showScene("resistance");
   ASSERT_TRUE(solved());
   auto& kind = find<QComboBox>("resistanceKind");
-  const auto less = static_cast<int>(ResistanceKind::LessKept);
+  const auto less = static_cast<int>(ResistanceKind::LessReference);
   EXPECT_FALSE(kind.model()->flags(kind.model()->index(less, 0)).testFlag(Qt::ItemIsEnabled)) << "nothing is kept";
   keepAndSoften();
   window.showScene("resistance");
@@ -225,8 +226,8 @@ TEST_F(KeptDesign, IsSubtractedFromTheHeatmapOfTheResistances) {
     const Eigen::MatrixXd rest = rowColumnResistances(design, ElectrodeDisplacements::atRest(design));
     return 100 * (rowColumnResistances(design, moved) - rest).cwiseQuotient(rest);
   };
-  const Eigen::MatrixXd wanted =
-      share(softer(), *workbench.touch().electrodes()) - share(paperDesign(), workbench.keptPath()->at(1).electrodes);
+  const Eigen::MatrixXd wanted = share(softer(), *workbench.touch().electrodes()) -
+                                 share(paperDesign(), workbench.referencePath()->at(1).electrodes);
   const Eigen::MatrixXd& shown = find<HeatmapView>("resistanceHeatmap").heatmap().values;
   ASSERT_EQ(shown.rows(), wanted.rows());
   EXPECT_LT((shown - wanted).cwiseAbs().maxCoeff(), 1e-12);

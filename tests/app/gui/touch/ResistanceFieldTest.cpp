@@ -143,7 +143,7 @@ TEST_F(ResistanceField, FollowsTheCurrentOfTheChosenCellWhereItIsAskedFor) {
   const std::array<double, 2> displacement = block.colorRange();
   ASSERT_TRUE(box.isEnabled());
   QTest::mouseClick(&box, Qt::LeftButton, {}, QPoint(8, box.height() / 2));
-  ASSERT_TRUE(workbench.project().view.currentWay);
+  ASSERT_TRUE(workbench.project().view.currentPaths);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.currentScene().complete() && !window.busy(); }, kPatience_ms));
   EXPECT_NE(block.colorRange(), displacement);
   EXPECT_GT(block.colorRange()[0], 0);
@@ -174,7 +174,7 @@ TEST_F(ResistanceField, FollowsTheCurrentOfTheChosenCellWhereItIsAskedFor) {
 
 TEST_F(ResistanceField, FollowsNoCurrentWhereNobodyLooks) {
   Project next = workbench.project();
-  next.view.currentWay = true;
+  next.view.currentPaths = true;
   workbench.edit("way", next);
   ASSERT_TRUE(solved());
   QStringList begun;
@@ -196,11 +196,11 @@ TEST_F(ResistanceField, StandsLessAKeptDesignWhateverLawThatHas) {
   window.showScene("resistance");
   ASSERT_TRUE(shown()) << map().title;
   const Eigen::MatrixXd field = map().values;
-  for (const bool keptField : {false, true}) {
+  for (const bool referenceField : {false, true}) {
     Project next = workbench.project();
     next.kept = paperDesign();
-    if (keptField) next.kept->resistance = FieldLaw{.electrodeRadius_mm = 0.25, .readout = Readout::VirtualGround};
-    next.view.resistance = ResistanceKind::LessKept;
+    if (referenceField) next.kept->resistance = FieldLaw{.electrodeRadius_mm = 0.25, .readout = Readout::VirtualGround};
+    next.view.resistance = ResistanceKind::LessReference;
     workbench.edit("keep", next);
     ASSERT_TRUE(QTest::qWaitFor([&] { return map().values.size() > 0 && !window.busy(); }, kPatience_ms))
         << map().title;
@@ -208,7 +208,7 @@ TEST_F(ResistanceField, StandsLessAKeptDesignWhateverLawThatHas) {
     ASSERT_TRUE(kept.advance(Stage::Resistances));
     const Eigen::MatrixXd rest = resistancesAtRest_ohm(*next.kept);
     const Eigen::MatrixXd wanted = field - 100 * (*kept.resistances_ohm() - rest).cwiseQuotient(rest);
-    EXPECT_LT((map().values - wanted).norm(), 1e-6 * field.norm()) << keptField;
+    EXPECT_LT((map().values - wanted).norm(), 1e-6 * field.norm()) << referenceField;
     EXPECT_NE(map().values.norm(), 0);
   }
 }

@@ -44,6 +44,19 @@ protected:
   QString said() { return window.statusBar()->currentMessage(); }
 };
 
+TEST(RatioBox, TakesTheNumberInItsUnitAndARatioWithAnExponent) {
+  RatioBox box(1e6, "ppm");
+  box.setDecimals(3);
+  box.setRange(0, 1e6);
+  for (const auto& [keys, ppm] : {std::pair{"1e-4", 100.0}, {"5E-6", 5.0}, {"7ppm", 7.0}, {"2e1 ppm", 20.0}}) {
+    box.selectAll();
+    QTest::keyClicks(&box, keys);
+    QTest::keyClick(&box, Qt::Key_Return);
+    EXPECT_DOUBLE_EQ(box.value(), ppm) << keys;
+    EXPECT_EQ(box.text(), QString("%1 ppm").arg(ppm)) << keys;
+  }
+}
+
 TEST(NumbersOfTheProcess, HaveADecimalPointWhateverTheUsersLocale) {
   EXPECT_STREQ(localeconv()->decimal_point, ".");
   EXPECT_EQ(QLocale().toString(1234567.5), "1.23457e+06");

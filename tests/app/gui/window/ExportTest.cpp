@@ -90,9 +90,9 @@ TEST_F(Exporting, AVtuGetsItsEndingAndTheKeptDesignsFieldsWhereTheyAreShown) {
   Project next = workbench.project();
   next.kept = next.design;
   next.kept->material.c10_MPa *= 0.5;
-  next.view.lessKept = true;
+  next.view.lessReference = true;
   workbench.edit("keep", next);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.keptPath() != nullptr && !window.busy(); }, kPatience_ms));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.referencePath() != nullptr && !window.busy(); }, kPatience_ms));
   answerFileDialog(folder.filePath("both"));
   trigger("Export VTU");
   ASSERT_TRUE(written(folder.filePath("both.vtu")));
@@ -135,7 +135,7 @@ TEST_F(Exporting, TheFieldInTheCutIsATableOfTheValuesThatColourIt) {
   EXPECT_EQ(table.front(), "x_mm,y_mm,z_mm,u_x_mm,u_y_mm,u_z_mm,\"" +
                                QByteArray::fromStdString(quantityName(Quantity::Displacement)) + " [mm]\"");
   ASSERT_GT(table.size(), 20);
-  const double warp = find<BlockView>("block").warpFactor();
+  const double warp = find<BlockView>("block").deformationScale();
   for (const QByteArray& line : table.mid(1)) {
     const QList<QByteArray> cells = line.split(',');
     ASSERT_EQ(cells.size(), 7) << line.toStdString();

@@ -1,5 +1,5 @@
 #include "app/gui/live/LiveBoards.h"
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 #include "app/gui/views/BlockView.h"
 #include "app/study/Resources.h"
 #include "tests/app/gui/WindowFixture.h"
@@ -23,7 +23,7 @@ TEST_F(Window, OpensOnTheDeformationSceneAndSolvesByItself) {
   EXPECT_EQ(window.currentScene().objectName(), "deformation");
   ASSERT_TRUE(solved());
   EXPECT_TRUE(workbench.touch().touch().solution()->converged);
-  EXPECT_GT(find<BlockView>("block").warpFactor(), 1);
+  EXPECT_GT(find<BlockView>("block").deformationScale(), 1);
 }
 
 TEST_F(Window, GoesThroughAllScenesAndSolvesOnce) {
@@ -46,7 +46,7 @@ TEST_F(Window, ShowsAndCancelsTheWorkOfTheLiveScene) {
   window.showScene("live");
   workbench.touch().cancel();
   auto& page = static_cast<LiveBoards&>(window.currentScene()).page();
-  auto& twin = find<LiveTwin>("liveTwin");
+  auto& twin = find<LiveModelView>("liveTwin");
   ASSERT_TRUE(
       QTest::qWaitFor([&] { return page.complete() && page.host().history().lastValid() != nullptr; }, kPatience_ms));
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.busy(); }, kPatience_ms));

@@ -159,8 +159,8 @@ TEST_F(PathPanelTest, IsSetByNumbersKeptInTheFileAndRefusedInWords) {
 TEST_F(PathPanelTest, ATouchIsComparedWithItsForceUniform) {
   ASSERT_TRUE(drawn());
   QTest::mouseClick(&find<QPushButton>("compareUniform"), Qt::LeftButton);
-  EXPECT_TRUE(project().view.lessKept && project().view.uniform);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.keptPath() != nullptr; }, kPatience_ms));
+  EXPECT_TRUE(project().view.lessReference && project().view.uniform);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.referencePath() != nullptr; }, kPatience_ms));
   const Touch& shown = workbench.touch().touch();
   const IndenterState& ball = shown.solution()->state().indenters[0];
   // The ball lies over the border of two areas: rounding of its motion decides.
@@ -169,13 +169,13 @@ TEST_F(PathPanelTest, ATouchIsComparedWithItsForceUniform) {
   Touch alone(project().design, uniform, project().mesh);
   ASSERT_TRUE(alone.advance(Stage::Resistances));
   const NodalFields wanted = alone.problem()->fields(alone.solution()->state());
-  const KeptPath& path = *workbench.keptPath();
+  const ReferencePath& path = *workbench.referencePath();
   EXPECT_EQ(path.load, uniform);
   EXPECT_LT((path.at(1).fields.displacement_mm - wanted.displacement_mm).norm(), 1e-6 * wanted.displacement_mm.norm());
   EXPECT_TRUE(find<QLabel>("difference").text().contains("Difference from uniform load"));
   window.showScene("resistance");
   auto& kind = find<QComboBox>("resistanceKind");
-  kind.setCurrentIndex(static_cast<int>(ResistanceKind::LessKept));
+  kind.setCurrentIndex(static_cast<int>(ResistanceKind::LessReference));
   settle();
   const auto changes = [&](const Touch& touch) {
     const Eigen::MatrixXd rest = resistancesAtRest_ohm(touch.design());
@@ -188,7 +188,7 @@ TEST_F(PathPanelTest, ATouchIsComparedWithItsForceUniform) {
   EXPECT_NE(map.title.find("uniform"), std::string::npos);
   window.showScene("deformation");
   QTest::mouseClick(&find<QPushButton>("compareUniform"), Qt::LeftButton);
-  EXPECT_FALSE(project().view.lessKept);
+  EXPECT_FALSE(project().view.lessReference);
 }
 
 } // namespace

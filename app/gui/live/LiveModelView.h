@@ -15,14 +15,14 @@ namespace palp {
 
 class BlockView;
 
-/// The twin: what the finite element model says of the force that was decoded just now. Meshed and solved only when
-/// asked for.
-class LiveTwin : public QWidget {
+/// The model view: the finite element model under the force that was decoded just now. Meshed and solved only on
+/// request.
+class LiveModelView : public QWidget {
   Q_OBJECT
 
 public:
-  explicit LiveTwin(QWidget* parent = nullptr);
-  ~LiveTwin() override;
+  explicit LiveModelView(QWidget* parent = nullptr);
+  ~LiveModelView() override;
 
   /// Solves under the load; `measured` is R / R at rest - 1 of the board, compared with the model's.
   void solve(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
@@ -34,9 +34,9 @@ public:
   [[nodiscard]] const Touch* touch() const;
 
 signals:
-  void solveAsked();
+  void solveRequested();
   /// The load that was solved, for the Deformation scene.
-  void loadAsked(const LoadCase& load);
+  void loadRequested(const LoadCase& load);
 
 private:
   struct Result;

@@ -1,4 +1,4 @@
-#include "app/gui/touch/CurrentWay.h"
+#include "app/gui/touch/CurrentPathsJob.h"
 
 #include "solver/ConductionField.h"
 
@@ -34,7 +34,7 @@ std::shared_ptr<const CurrentLines> linesOf(const Touch& touch, double loadFract
 
 } // namespace
 
-CurrentWay::CurrentWay(FieldTouch& field, QObject* parent) : QObject(parent), field_(field) {
+CurrentPathsJob::CurrentPathsJob(FieldTouch& field, QObject* parent) : QObject(parent), field_(field) {
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
     problem_ = sentence;
     emit changed();
@@ -47,7 +47,7 @@ CurrentWay::CurrentWay(FieldTouch& field, QObject* parent) : QObject(parent), fi
   });
 }
 
-void CurrentWay::want(const Touch& touch, double loadFraction, const std::array<int, 2>& cell) {
+void CurrentPathsJob::want(const Touch& touch, double loadFraction, const std::array<int, 2>& cell) {
   const auto found = field_.found(touch, loadFraction);
   if (!found) { // what there is belongs to another state
     leave();
@@ -73,7 +73,7 @@ void CurrentWay::want(const Touch& touch, double loadFraction, const std::array<
                 });
 }
 
-void CurrentWay::leave() {
+void CurrentPathsJob::leave() {
   wanted_.reset();
   lines_.reset();
   problem_.clear();

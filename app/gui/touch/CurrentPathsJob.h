@@ -7,13 +7,13 @@
 
 namespace palp {
 
-/// The current's way in a touch while one row-wire and one column-wire are read, in the background and only while a
+/// The current paths in a touch while one row-wire and one column-wire are read, in the background and only while a
 /// scene shows it.
-class CurrentWay : public QObject {
+class CurrentPathsJob : public QObject {
   Q_OBJECT
 
 public:
-  explicit CurrentWay(FieldTouch& field, QObject* parent = nullptr);
+  explicit CurrentPathsJob(FieldTouch& field, QObject* parent = nullptr);
 
   /// A scene shows it: computed unless that was done, or runs, as soon as the field of the state was found.
   void want(const Touch& touch, double loadFraction, const std::array<int, 2>& cell);

@@ -1,4 +1,4 @@
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 
 #include "app/gui/jobs/FieldTouch.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr int kTwinPatience_ms = 60000;
 
 /// The share that the twin says of a board whose dR/R is `times` its own.
-double saidBeside(LiveTwin& twin, const Touch& touch, const Eigen::MatrixXd& own, double times) {
+double saidBeside(LiveModelView& twin, const Touch& touch, const Eigen::MatrixXd& own, double times) {
   twin.solve(touch.design(), touch.load(), touch.meshOptions(), times * own);
   EXPECT_TRUE(QTest::qWaitFor([&] { return !twin.runner().running(); }, kTwinPatience_ms));
   const QString words = twin.findChild<QLabel*>("twinWords")->text();
@@ -22,7 +22,7 @@ double saidBeside(LiveTwin& twin, const Touch& touch, const Eigen::MatrixXd& own
   return words.mid(words.indexOf(before) + before.size()).section(' ', 0, 0).toDouble();
 }
 
-TEST(LiveTwin, ComparesItselfWithTheBoardUnderTheFieldToo) {
+TEST(LiveModelView, ComparesItselfWithTheBoardUnderTheFieldToo) {
   SensorDesign design = paperDesign();
   design.resistance = FieldLaw{.readout = Readout::VirtualGround};
   MeshOptions mesh;
@@ -32,7 +32,7 @@ TEST(LiveTwin, ComparesItselfWithTheBoardUnderTheFieldToo) {
   const auto resistances = fieldResistances(touch, 1, {});
   ASSERT_TRUE(resistances);
   const Eigen::MatrixXd own = resistances->now_ohm.cwiseQuotient(resistances->rest_ohm).array() - 1;
-  LiveTwin twin;
+  LiveModelView twin;
   EXPECT_LT(saidBeside(twin, touch, own, 1), 1e-6);
   EXPECT_NEAR(saidBeside(twin, touch, own, 2), 50, 0.5); // the second keeps mesh and field
   EXPECT_NEAR(saidBeside(twin, touch, own, 4), 75, 0.5);

@@ -14,7 +14,7 @@ namespace palp {
 /// Another answer to compare the touch with that is shown: of the design that was kept to its load, or of its own
 /// design to the same forces, uniform. The points of the two blocks that are compared are those at the same shares of
 /// the blocks' sides: the same places where the blocks are of one size.
-struct KeptPath {
+struct ReferencePath {
   SensorDesign design;
   LoadCase load; ///< as it acts on it: matchedLoad()
   /// The equilibria on its load path, their fields at the nodes of the shown touch's mesh.
@@ -33,23 +33,25 @@ struct KeptPath {
 /// as they are. Throws Error where it follows a path: areas do not move.
 LoadCase uniformLoad(const Touch& touch);
 
-/// Solves the kept design under the touch's load, at the same shares of the block, and reads its fields at the nodes of
-/// the touch's mesh. Throws Cancelled where it is stopped, Error where the kept design cannot bear the load.
-KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform = false);
+/// Solves the reference design under the touch's load, at the same shares of the block, and reads its fields at the
+/// nodes of the touch's mesh. Throws Cancelled where it is stopped, Error where the reference design cannot bear the
+/// load.
+ReferencePath referencePath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop,
+                            bool uniform = false);
 
 /// The same in the background, and only while a scene shows it.
-class KeptTouch : public QObject {
+class ReferenceTouch : public QObject {
   Q_OBJECT
 
 public:
-  explicit KeptTouch(QObject* parent = nullptr);
+  explicit ReferenceTouch(QObject* parent = nullptr);
 
-  /// A scene shows this design beside this touch: computed unless that was done, or runs.
+  /// A scene compares this design with this touch: computed unless that was done, or runs.
   void want(const SensorDesign& kept, const Touch& shown, bool uniform);
   /// Null before it is there, and where another one was wanted last.
-  [[nodiscard]] std::shared_ptr<const KeptPath> pathFor(const SensorDesign& kept, const Touch& shown,
-                                                        bool uniform) const;
-  /// Why there is none, in words; empty while it is computed.
+  [[nodiscard]] std::shared_ptr<const ReferencePath> pathFor(const SensorDesign& kept, const Touch& shown,
+                                                             bool uniform) const;
+  /// Why there is none, as text; empty while it is computed.
   [[nodiscard]] const QString& problem() const { return problem_; }
   /// Computes it again after a cancel.
   void resume();
@@ -73,7 +75,7 @@ private:
 
   JobRunner runner_;
   std::optional<Inputs> wanted_;
-  std::shared_ptr<const KeptPath> path_;
+  std::shared_ptr<const ReferencePath> path_;
   QString problem_;
 };
 

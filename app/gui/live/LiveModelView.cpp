@@ -1,7 +1,8 @@
-#include "app/gui/live/LiveTwin.h"
+#include "app/gui/live/LiveModelView.h"
 
 #include "app/gui/jobs/FieldTouch.h"
 #include "app/gui/views/BlockView.h"
+#include "app/gui/widgets/MakeWidgets.h"
 #include "model/base/Error.h"
 #include "solver/ConductionField.h"
 #include "solver/MeshCost.h"
@@ -15,7 +16,7 @@
 
 namespace palp {
 
-struct LiveTwin::Result {
+struct LiveModelView::Result {
   Touch touch;
   std::shared_ptr<const NodalFields> fields;
   std::optional<TouchResistances> resistances;  ///< by the design's law
@@ -67,24 +68,18 @@ std::optional<double> mismatch(const std::optional<TouchResistances>& resistance
 
 } // namespace
 
-LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
+LiveModelView::LiveModelView(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 8, 8, 2);
-  auto* solve = new QPushButton(tr("Solve for this force"));
-  solve->setObjectName("solveTwin");
-  solve->setToolTip(tr("Meshes and solves the block under the latest decoded force (W)"));
-  use_ = new QPushButton(tr("Use in Deformation"));
-  use_->setObjectName("takeLoad");
-  use_->setToolTip(tr("Makes this force the load of the Deformation scene; this can be undone"));
+  auto* solve = pushButton(tr("Solve for this force"), "solveTwin",
+                           tr("Meshes and solves the block under the latest decoded force (W)"));
+  use_ = pushButton(tr("Use in Deformation"), "takeLoad",
+                    tr("Makes this force the load of the Deformation scene; this can be undone"));
   use_->setEnabled(false);
-  words_ = new QLabel;
-  words_->setObjectName("twinWords");
-  words_->setWordWrap(true);
-  row->addWidget(solve);
-  row->addWidget(use_);
-  row->addStretch(1);
+  words_ = textLabel("twinWords");
+  addTo(*row, {solve, use_, Part::stretch()});
   words_->setContentsMargins(8, 0, 8, 0);
   column->addLayout(row);
   column->addWidget(words_);
@@ -92,8 +87,8 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   view_->setObjectName("twin");
   column->addWidget(view_, 1);
   options_.meshEdges = false;
-  connect(solve, &QPushButton::clicked, this, &LiveTwin::solveAsked);
-  connect(use_, &QPushButton::clicked, this, [this] { emit loadAsked(result_->touch.load()); });
+  connect(solve, &QPushButton::clicked, this, &LiveModelView::solveRequested);
+  connect(use_, &QPushButton::clicked, this, [this] { emit loadRequested(result_->touch.load()); });
   connect(&runner_, &JobRunner::failed, words_, &QLabel::setText);
   connect(&runner_, &JobRunner::finished, this, [this](bool cancelled) {
     if (cancelled) displayWords();
@@ -102,14 +97,14 @@ LiveTwin::LiveTwin(QWidget* parent) : QWidget(parent) {
   connect(&runner_, &JobRunner::progressed, this, [this](double, const QString& what) { words_->setText(what); });
 }
 
-LiveTwin::~LiveTwin() = default;
+LiveModelView::~LiveModelView() = default;
 
-const Touch* LiveTwin::touch() const {
+const Touch* LiveModelView::touch() const {
   return result_ ? &result_->touch : nullptr;
 }
 
-void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
-                     const Eigen::MatrixXd& measured) {
+void LiveModelView::solve(const SensorDesign& design, const LoadCase& load, const MeshOptions& mesh,
+                          const Eigen::MatrixXd& measured) {
   Touch start(design, load, mesh);
   std::shared_ptr<const ConductionField> field;
   if (result_ && result_->touch.design() == design && result_->touch.meshOptions() == mesh) { // keeps the mesh
@@ -141,7 +136,7 @@ void LiveTwin::solve(const SensorDesign& design, const LoadCase& load, const Mes
   runner_.start(tr("Solving the model view"), work);
 }
 
-void LiveTwin::take(std::shared_ptr<const Result> result) {
+void LiveModelView::take(std::shared_ptr<const Result> result) {
   const bool meshChanged = !result_ || result_->touch.mesh() != result->touch.mesh();
   result_ = std::move(result);
   stages_ = result_->touch.stages();
@@ -150,7 +145,7 @@ void LiveTwin::take(std::shared_ptr<const Result> result) {
   draw(meshChanged);
 }
 
-void LiveTwin::displayWords() {
+void LiveModelView::displayWords() {
   if (!result_) {
     words_->setText(tr("Press \"Solve for this force\" to show the model's deformation under the decoded force."));
     return;
@@ -163,7 +158,7 @@ void LiveTwin::displayWords() {
   words_->setText(words);
 }
 
-void LiveTwin::draw(bool meshChanged) {
+void LiveModelView::draw(bool meshChanged) {
   if (!result_) return;
   const Touch& touch = result_->touch;
   options_.scale = devicePixelRatioF();
@@ -176,7 +171,7 @@ void LiveTwin::draw(bool meshChanged) {
   view_->show(state, options_, meshChanged);
 }
 
-void LiveTwin::setTheme(Theme theme) {
+void LiveModelView::setTheme(Theme theme) {
   options_.theme = theme;
   view_->setTheme(theme);
   draw(false);

@@ -1,4 +1,4 @@
-#include "app/gui/jobs/KeptTouch.h"
+#include "app/gui/jobs/ReferenceTouch.h"
 
 #include "app/gui/jobs/MatchedLoad.h"
 #include "model/TouchRange.h"
@@ -81,7 +81,7 @@ LoadCase loadOn(const SensorDesign& kept, const Touch& shown, bool uniform) {
 
 } // namespace
 
-double KeptPath::fractionAt(double shown) const {
+double ReferencePath::fractionAt(double shown) const {
   if (asLarge.empty()) return shown;
   for (std::size_t k = 1; k < asLarge.size(); ++k) {
     const auto& [from, fromShare] = asLarge[k - 1];
@@ -108,7 +108,7 @@ LoadCase uniformLoad(const Touch& touch) {
   return load;
 }
 
-KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform) {
+ReferencePath referencePath(const SensorDesign& kept, const Touch& shown, const std::stop_token& stop, bool uniform) {
   const LoadCase load = loadOn(kept, shown, uniform);
   Touch touch(kept, load, shown.meshOptions());
   if (!uniform) {
@@ -122,7 +122,7 @@ KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_
   if (!good)
     throw Error(whose + " cannot carry the load" + (uniform ? " uniform: " : ": ") + touch.solution()->stopReason);
   touch.problem()->releaseFactor();
-  KeptPath path{kept, load, loadPathStates(touch, stop), {}};
+  ReferencePath path{kept, load, loadPathStates(touch, stop), {}};
   if (uniform) path.asLarge = forceShares(shown);
   if (kept.field() != nullptr) path.touch = touch;
   throwIfStopped(stop);
@@ -137,7 +137,7 @@ KeptPath keptPath(const SensorDesign& kept, const Touch& shown, const std::stop_
   return path;
 }
 
-KeptTouch::KeptTouch(QObject* parent) : QObject(parent) {
+ReferenceTouch::ReferenceTouch(QObject* parent) : QObject(parent) {
   connect(&runner_, &JobRunner::failed, this, [this](const QString& sentence) {
     problem_ = sentence;
     emit changed();
@@ -149,30 +149,31 @@ KeptTouch::KeptTouch(QObject* parent) : QObject(parent) {
   });
 }
 
-bool KeptTouch::wanted(const SensorDesign& kept, const Touch& shown, bool uniform) const {
+bool ReferenceTouch::wanted(const SensorDesign& kept, const Touch& shown, bool uniform) const {
   return wanted_ && wanted_->uniform == uniform && wanted_->kept == kept && wanted_->shown.path() == shown.path() &&
          sameButForLaw(wanted_->shown.design(), shown.design()) && wanted_->shown.load() == shown.load() &&
          wanted_->shown.meshOptions() == shown.meshOptions();
 }
 
-void KeptTouch::want(const SensorDesign& kept, const Touch& shown, bool uniform) {
+void ReferenceTouch::want(const SensorDesign& kept, const Touch& shown, bool uniform) {
   if (shown.solution() == nullptr || wanted(kept, shown, uniform)) return;
   wanted_ = Inputs{kept, shown, uniform};
   run();
 }
 
-std::shared_ptr<const KeptPath> KeptTouch::pathFor(const SensorDesign& kept, const Touch& shown, bool uniform) const {
+std::shared_ptr<const ReferencePath> ReferenceTouch::pathFor(const SensorDesign& kept, const Touch& shown,
+                                                             bool uniform) const {
   return wanted(kept, shown, uniform) ? path_ : nullptr;
 }
 
-void KeptTouch::resume() {
+void ReferenceTouch::resume() {
   if (!wanted_ || path_ || runner_.running()) return;
   wanted_.reset();
   problem_.clear();
-  emit changed(); // the scene that shows it wants it again
+  emit changed(); // the scene that shows it requests it again
 }
 
-void KeptTouch::run() {
+void ReferenceTouch::run() {
   path_.reset();
   problem_.clear();
   const bool uniform = wanted_->uniform;
@@ -181,7 +182,7 @@ void KeptTouch::run() {
                 [this, what, uniform, kept = wanted_->kept,
                  shown = wanted_->shown](const std::stop_token& stop, JobProgress& progress) -> JobRunner::Taking {
                   progress.set(-1, what.toStdString());
-                  auto path = std::make_shared<const KeptPath>(keptPath(kept, shown, stop, uniform));
+                  auto path = std::make_shared<const ReferencePath>(referencePath(kept, shown, stop, uniform));
                   return [this, path] {
                     path_ = path;
                     emit changed();
@@ -193,7 +194,7 @@ void KeptTouch::run() {
   wanted_->shown = known;
 }
 
-void KeptTouch::forget() {
+void ReferenceTouch::forget() {
   runner_.cancel();
   wanted_.reset();
   path_.reset();
