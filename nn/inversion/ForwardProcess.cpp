@@ -281,8 +281,8 @@ SplineTable ForwardProcess::tableOf(const std::vector<Eigen::Index>& samples, co
     }
   });
   throwIfStopped(stop_);
+  table.rest = Eigen::VectorXd::Zero(weights.cols()); // its size is the number of outputs
   table.interpolate(std::move(values));
-  table.rest = Eigen::VectorXd::Zero(weights.cols());
   if (parts[0].parity == 0)
     table.rest.head(parts[0].count) = static_cast<double>(places.size()) * kRestVariance *
                                       weights.leftCols(parts[0].count).colwise().sum().transpose();
