@@ -19,7 +19,7 @@ namespace palp {
 namespace {
 
 constexpr int kMostReportBytes = 256; // a board may send more than it should
-constexpr int kMostQueued = 128;    // the kernel holds 63; a fast board adds some while they are dropped
+constexpr int kMostQueued = 128;      // the kernel holds 63; a fast board adds some while they are dropped
 
 /// hidapi keeps the error of opening in one place for all threads.
 std::mutex& openingMutex() {
