@@ -76,6 +76,19 @@ void print(const Decoder& decoder, const SampleSet& samples, const Session& sess
             << "]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
 }
 
+/// Options of measured rows where none are trained.
+void requireMeasured(const SampleSet& samples, const TrainOptions& options) {
+  if (trainsAsMeasured(samples, options)) return;
+  for (const auto& [name, given] : {std::pair{"order", options.order.has_value()},
+                                    {"transform", options.transform.has_value()},
+                                    {"memory", !options.memory.empty()},
+                                    {"clock", options.clock.has_value()}})
+    if (given)
+      throw UsageError("--" + std::string(name) +
+                       ": is for measured samples (palp import), of decoder rbf without noise and "
+                       "without options of its system; these samples are trained otherwise");
+}
+
 Exit run(const TrainCommandArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
@@ -86,6 +99,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
     printMeshCost(*design, meshOfKnownTouches(*design, samples.size()), session);
   takeDefaultsOf(samples, arguments.train.isGiven("input"), arguments.train.isGiven("rows"), options);
+  requireMeasured(samples, options);
   const Decoder decoder = session.stages.measure("train", [&] {
     ProgressBar bar("training", 1000);
     return trainDecoder(samples, design ? &*design : nullptr, options, session.stop,

@@ -43,17 +43,6 @@ Eigen::VectorXd residualRootMeanSquare(const Eigen::MatrixXd& residuals) {
                                : Eigen::VectorXd(residuals.array().square().rowwise().mean().sqrt());
 }
 
-/// Options of measured rows where none are trained.
-void requireNoMeasuredOptions(const TrainOptions& options) {
-  for (const auto& [name, given] : {std::pair{"order", options.order.has_value()},
-                                    {"transform", options.transform.has_value()},
-                                    {"memory", !options.memory.empty()},
-                                    {"clock", options.clock.has_value()}})
-    if (given)
-      throw Error(std::string(name) + ": an option of measured samples (palp import), of decoder rbf without noise and "
-                                      "without options of its system; these samples are trained otherwise");
-}
-
 /// The work of one training, step by step; `decoder_` and its report grow on the way.
 class DecoderTraining {
 public:
@@ -98,7 +87,6 @@ Decoder DecoderTraining::run() {
   if (samples_.size() == 0) throw Error("samples: " + gotExpected("0", "1 or more"));
   const auto start = std::chrono::steady_clock::now();
   describe();
-  if (!trainsAsMeasured(samples_, options_)) requireNoMeasuredOptions(options_);
   say(0, "fitting " + name(options_.decoder));
   fit();
   if (stop_.stop_requested()) throw Cancelled();

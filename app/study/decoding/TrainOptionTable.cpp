@@ -1,6 +1,5 @@
 #include "app/study/decoding/TrainOptionTable.h"
 
-#include "model/base/Error.h"
 #include "model/base/NumberText.h"
 #include "model/base/Text.h"
 
@@ -155,15 +154,10 @@ TrainOption memory() {
                      .label = "memory",
                      .help = "of measured samples: none, or time constants in s, for example 0.1,0.4 (default: by the "
                              "validation)",
-                     .allowed = "none, or times above 0 in s",
+                     .inForm = false,
                      .applies = isRbf};
   option.text = [](const TrainOptions& options) { return options.memory; };
-  option.set = [](TrainOptions& options, const std::string& text) {
-    try {
-      static_cast<void>(memoryTimes_s(text));
-    } catch (const Error&) { // the caller has the sentence
-      return false;
-    }
+  option.set = [](TrainOptions& options, const std::string& text) { // memoryTimes_s refuses what is wrong
     options.memory = text;
     return true;
   };
@@ -177,12 +171,14 @@ std::vector<TrainOption> ofMeasured() {
               .key = "order",
               .label = "order of the rows",
               .help = "of measured samples: how rows depend on each other (default: detected)",
+              .inForm = false,
               .applies = isRbf},
              &TrainOptions::order, kRowOrders),
       choice({.name = "transform",
               .key = "transform",
               .label = "transform of the readings",
               .help = "of measured samples: what is made of each reading (default: by the validation)",
+              .inForm = false,
               .applies = isRbf},
              &TrainOptions::transform, kReadingTransforms),
       memory(),
@@ -190,6 +186,7 @@ std::vector<TrainOption> ofMeasured() {
               .key = "clock",
               .label = "clock of the memory",
               .help = "of measured samples: time, or rows where these are equally spaced in time (default time)",
+              .inForm = false,
               .applies = isRbf},
              &TrainOptions::clock, kMemoryClocks),
   };
