@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where in a table the numbers of a sample stand, and how they become one.
+/// Columns of the numbers of a sample in a table, and their conversion.
 class RowReader {
 public:
   RowReader(const ImportMap& map, MeasuredTable& table, const fs::path& mapFile, const fs::path& tableFile)

@@ -52,7 +52,7 @@ std::string replaced(std::string text, const std::string& mark, int number) {
   return text;
 }
 
-/// A list of names, or one name in which {row} and {column} stand for the numbers of the wires.
+/// A list of names, or one name in which {row} and {column} are replaced by the numbers of the wires.
 std::vector<std::string> wireNames(const JsonPlace& resistances, int rows, int columns) {
   const JsonPlace place = resistances.at("columns");
   const int first = resistances.has("first") ? resistances.at("first").integer(0, 1) : 0;

@@ -24,7 +24,7 @@ struct ImportMap {
   std::vector<ImportedColumn> forces_N;        ///< Fx, Fy, Fz on the top face, Fz below 0 when pressed
   std::optional<ImportedColumn> area;          ///< number of the loaded area
   int areaCount = 1;
-  std::vector<ImportedColumn> place_mm; ///< x, y from the block's corner; tells the area where nothing else does
+  std::vector<ImportedColumn> place_mm; ///< x, y from the block's corner; decides the area where no column does
   double length_mm = 0, width_mm = 0;   ///< of the block, with `place_mm`
   int areaColumns = 1, areaRows = 1;    ///< with `place_mm`
   std::optional<ImportedColumn> time_s; ///< must not go back

@@ -1,5 +1,6 @@
 #include "io/measured/MeasuredTable.h"
 
+#include "io/files/SystemError.h"
 #include "io/samples/Npz.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
@@ -8,7 +9,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <string_view>
 
@@ -37,7 +37,7 @@ class CsvTable : public MeasuredTable {
 public:
   CsvTable(const fs::path& path, char separator)
       : path_(path), separator_(separator), stream_(path, std::ios::binary), buffer_(kLongestLine, '\0') {
-    if (!stream_) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
+    if (!stream_) cannotRead(path);
     std::error_code ignored;
     if (fs::is_regular_file(path, ignored)) size_ = static_cast<double>(fs::file_size(path, ignored));
     do {
@@ -113,7 +113,7 @@ public:
   explicit NpzTable(const fs::path& path) : path_(path) {
     const std::map<std::string, NpyHead> heads = npzArrays(path);
     for (const auto& [name, head] : heads) {
-      if (head.shape.empty() || head.isText()) continue; // what is said of all rows
+      if (head.shape.empty() || head.isText()) continue; // a value for all rows
       if (!arrays_.empty() && head.shape[0] != rows_)
         throw Error(path.string() + ": array " + name + ": " +
                     gotExpected(std::to_string(head.shape[0]) + " rows",

@@ -19,7 +19,7 @@ public:
 
   [[nodiscard]] virtual const std::vector<std::string>& columns() const = 0;
   /// The chosen columns of the next row; false at the end. Throws Error with file and line (of arrays: row), where a
-  /// row has another number of fields than the head, or a chosen one is no finite number.
+  /// row has another number of fields than the head, or a chosen one is not a finite number.
   virtual bool next(const std::vector<std::size_t>& chosen, std::vector<double>& values) = 0;
   /// Of the table that has been read, 0 to 1.
   [[nodiscard]] virtual double share() const = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 // Private to io: what palp and palp-hdf5, the process that reads HDF5 files for it, say to each other through a socket
-// of one machine. Each request is answered by one Hdf5Reply and so many bytes.
+// of one machine. Each request is answered by one Hdf5Reply and its bytes.
 
 #include "io/samples/Hdf5.h"
 
@@ -17,7 +17,7 @@ enum class Hdf5Question : std::uint32_t {
   Rows    ///< the numbers, `count` rows from `row` on
 };
 
-/// Shorter than a page, so that it is sent at once.
+/// Shorter than a page, so that it is sent in one piece.
 struct Hdf5Request {
   Hdf5Question question = Hdf5Question::Attributes;
   Hdf5Number number = Hdf5Number::Double;
