@@ -1,7 +1,7 @@
 #include "io/AtomicFile.h"
 
+#include "io/files/SystemError.h"
 #include "io/files/TemporaryName.h"
-#include "model/base/Error.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,7 +9,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 
 namespace palp {
@@ -27,31 +26,23 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string reason() {
-  return std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
-}
-
-[[noreturn]] void cannotWrite(const fs::path& path, const std::string& why) {
-  throw Error(path.string() + ": cannot be written: " + why);
-}
-
 bool isSpecial(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-/// What file systems that cannot synchronise answer is no failure.
+/// The errors of file systems that cannot synchronise are ignored.
 void syncFile(const fs::path& file, const fs::path& name) {
   const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0) return; // of a mode that forbids reading
   const bool failed = ::fsync(opened) != 0 && errno != EINVAL && errno != ENOSYS && errno != ENOTSUP && errno != EROFS;
-  const std::string why = reason();
+  const std::string why = systemMessage();
   ::close(opened);
   if (failed) cannotWrite(name, why);
 }
 
-/// So that the new name outlives a power cut. The file stands there already: a failure changes nothing any more.
+/// So that the new name outlives a power cut. The file already has it: a failure changes nothing any more.
 void syncFolderOf(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -61,26 +52,26 @@ void syncFolderOf(const fs::path& file) {
 }
 
 /// Mode and, where that is allowed, owner of the file that will be replaced, if there is one.
-void takeMode(const fs::path& beside, const fs::path& end, const fs::path& name) {
+void takeMode(const fs::path& temporary, const fs::path& end, const fs::path& name) {
   struct stat old {
   }, made{};
-  if (::stat(end.c_str(), &old) != 0 || ::stat(beside.c_str(), &made) != 0) return;
-  if (::access(end.c_str(), W_OK) != 0) cannotWrite(name, reason());
+  if (::stat(end.c_str(), &old) != 0 || ::stat(temporary.c_str(), &made) != 0) return;
+  if (::access(end.c_str(), W_OK) != 0) cannotWrite(name);
   if (old.st_uid != made.st_uid || old.st_gid != made.st_gid) {
-    [[maybe_unused]] const int mayFail = ::chown(beside.c_str(), old.st_uid, old.st_gid);
+    [[maybe_unused]] const int mayFail = ::chown(temporary.c_str(), old.st_uid, old.st_gid);
   }
-  if ((old.st_mode & 07777) != (made.st_mode & 07777)) ::chmod(beside.c_str(), old.st_mode & 07777);
+  if ((old.st_mode & 07777) != (made.st_mode & 07777)) ::chmod(temporary.c_str(), old.st_mode & 07777);
 }
 
 fs::path makeTemporary(const fs::path& end, const fs::path& name) {
   for (int number = 0; number < kMostTries; ++number) {
-    const fs::path beside = end.parent_path() / temporaryName(end.filename(), number);
-    const int made = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const fs::path temporary = end.parent_path() / temporaryName(end.filename(), number);
+    const int made = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (made >= 0) {
       ::close(made);
-      return beside;
+      return temporary;
     }
-    if (errno != EEXIST) cannotWrite(name, reason());
+    if (errno != EEXIST) cannotWrite(name);
   }
   cannotWrite(name, "every temporary name is taken");
 }
@@ -117,7 +108,7 @@ void requireFree(const fs::path& path, bool force) {
 
 void requireWritable(const fs::path& path, bool force) {
   const AtomicFile tried(path, force);
-  if (isSpecial(path) && ::access(path.c_str(), W_OK) != 0) cannotWrite(path, reason());
+  if (isSpecial(path) && ::access(path.c_str(), W_OK) != 0) cannotWrite(path);
 }
 
 void removeLeftovers(const fs::path& folder) {
@@ -142,46 +133,57 @@ AtomicFile::AtomicFile(fs::path path, bool force) : path_(std::move(path)), forc
   requireFree(path_, force_);
   end_ = linkEnd(path_);
   if (isSpecial(path_) || isOwnTemporary(end_)) {
-    beside_ = end_;
+    temporary_ = end_;
     return;
   }
   if (!end_.has_filename()) throw Error(path_.string() + ": is a folder; a file name is needed");
   removeLeftovers(end_.parent_path());
-  beside_ = makeTemporary(end_, path_);
+  temporary_ = makeTemporary(end_, path_);
   try {
-    takeMode(beside_, end_, path_);
+    takeMode(temporary_, end_, path_);
   } catch (...) { // the destructor does not run for what was never constructed
     std::error_code ignored;
-    fs::remove(beside_, ignored);
+    fs::remove(temporary_, ignored);
     throw;
   }
 }
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
-  if (!committed_ && beside_ != end_) fs::remove(beside_, ignored);
+  if (!committed_ && temporary_ != end_) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::fill(const std::function<void(const fs::path&)>& write) {
+  try {
+    write(temporary_);
+  } catch (const Error& error) {
+    std::string words = error.what();
+    const std::size_t at = words.find(temporary_.string());
+    if (at == std::string::npos) throw;
+    throw Error(words.replace(at, temporary_.string().size(), path_.string()));
+  }
 }
 
 void AtomicFile::sync() {
-  if (beside_ != end_ && !synced_) syncFile(beside_, path_);
+  if (temporary_ != end_ && !synced_) syncFile(temporary_, path_);
   synced_ = true;
 }
 
 void AtomicFile::commit() {
-  if (beside_ != end_) {
+  if (temporary_ != end_) {
     requireFree(path_, force_); // it may have appeared meanwhile
     sync();
-    renameInto(beside_, end_, path_);
+    renameInto(temporary_, end_, path_);
   }
   committed_ = true;
 }
 
 void writeFile(const fs::path& path, std::string_view content, bool force) {
   AtomicFile target(path, force);
-  File file(std::fopen(target.beside().c_str(), "wb"));
-  if (!file) cannotWrite(path, reason());
+  File file(std::fopen(target.temporary().c_str(), "wb"));
+  if (!file) cannotWrite(path);
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
-  if (!written || std::fclose(file.release()) != 0) cannotWrite(path, reason());
+  if (!written || std::fclose(file.release()) != 0) cannotWrite(path);
   target.commit();
 }
 
@@ -189,11 +191,11 @@ std::string readFile(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw Error(path.string() + ": is a folder; a file is needed");
   const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw Error(path.string() + ": cannot be read: " + reason());
+  if (!file) cannotRead(path);
   std::string content;
   char block[1 << 16];
   while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) content.append(block, count);
-  if (std::ferror(file.get())) throw Error(path.string() + ": cannot be read: " + reason());
+  if (std::ferror(file.get())) cannotRead(path);
   return content;
 }
 

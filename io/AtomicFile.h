@@ -1,13 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
 namespace palp {
 
-/// The file to which symbolic links lead, which need not exist yet; a name that is no link is its own end. What is no
-/// regular file (a pipe, /dev/null) keeps its name. Throws Error if the links lead in a circle.
+/// The file to which symbolic links lead, which need not exist yet; a name that is not a link is its own end. Anything
+/// but a regular file (a pipe, /dev/null) keeps its name. Throws Error if the links lead in a circle.
 std::filesystem::path linkEnd(const std::filesystem::path& path);
 
 /// Throws Error if the file exists and `force` is not given, so that long work can be refused before it starts.
@@ -36,7 +37,9 @@ public:
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// Where to write; has the extension of the final name.
-  [[nodiscard]] const std::filesystem::path& beside() const { return beside_; }
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  /// Lets `write` write the temporary file. Throws its Error, with the final name in place of the temporary one.
+  void fill(const std::function<void(const std::filesystem::path&)>& write);
   /// Hands what was written to the disk: this is what can fail on a full one. Throws Error.
   void sync();
   /// Renames the written file, synchronised, to its final name. Throws Error.
@@ -45,16 +48,16 @@ public:
 private:
   std::filesystem::path path_; ///< as it was given, for refusals
   std::filesystem::path end_;  ///< of its links
-  std::filesystem::path beside_;
+  std::filesystem::path temporary_;
   bool force_;
   bool synced_ = false;
   bool committed_ = false;
 };
 
-/// Writes the whole file as AtomicFile does. Throws Error.
+/// Writes a complete file as AtomicFile does. Throws Error.
 void writeFile(const std::filesystem::path& path, std::string_view content, bool force);
 
-/// The whole file. Throws Error.
+/// The content of a file. Throws Error.
 std::string readFile(const std::filesystem::path& path);
 
 } // namespace palp

@@ -25,7 +25,7 @@ struct BlockInversion {
   Eigen::MatrixXd forces_N;       ///< forces x readings: of ln R / R at rest
   Eigen::MatrixXd modes_mm_per_N; ///< (3 electrodes of the rows) x forces
 
-  /// Displacements [mm] from resistances [ohm], one column a sample.
+  /// Displacements [mm] from resistances [ohm], one column per sample.
   [[nodiscard]] Eigen::MatrixXd displacements_mm(const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) const {
     const Eigen::MatrixXd change = (rest_ohm.cwiseInverse().asDiagonal() * resistances_ohm).array().log();
     return modes_mm_per_N * (forces_N * change);
@@ -92,10 +92,10 @@ struct Decoder {
   std::uint64_t seed = 1;
   double noise = 0; ///< relative noise of the inputs it was trained with
   int areaCount = 0;
-  bool together = false;             ///< one force per area at once: 3 x areas outputs
-  std::string touches;               ///< the indenters it was trained on, in words; empty: forces on whole areas
-  std::optional<DecoderPlace> place; ///< of a decoder of force and place, whose model gives x and y after the force
-  /// Of a decoder by inversion, whose model says how readings follow a touch and stays as it is; none: not calibrated.
+  bool together = false;             ///< one force per area together: 3 x areas outputs
+  std::string touches;               ///< the indenters it was trained on, as text; empty: forces on complete areas
+  std::optional<DecoderPlace> place; ///< of a decoder of force and position, whose model gives x and y after the force
+  /// Of a decoder by inversion, whose model of the readings stays as it is; none: not calibrated.
   std::optional<OutputCorrection> correction;
   Eigen::VectorXd low_N, high_N;            ///< training range of each force
   Eigen::MatrixXd residual_N;               ///< forces x areas (1 where unknown): rms error found in training, per area

@@ -114,7 +114,7 @@ Eigen::Index inputsOf(const Decoder& decoder) {
       decoder.model);
 }
 
-constexpr Eigen::Index kTouchOutputs = 5; // force and place
+constexpr Eigen::Index kTouchOutputs = 5; // force and position
 
 Eigen::Index outputsOf(const Decoder& decoder) {
   return std::visit(
@@ -122,7 +122,7 @@ Eigen::Index outputsOf(const Decoder& decoder) {
         using Model = std::decay_t<decltype(model)>;
         if constexpr (std::is_same_v<Model, KernelForwardModel>)
           return std::min<Eigen::Index>(model.parameters(),
-                                        kTouchOutputs); // after them what is found beside: size, friction
+                                        kTouchOutputs); // after them the others: size, friction
         else if constexpr (std::is_same_v<Model, ForwardModel>)
           return model.parameters();
         else if constexpr (std::is_same_v<Model, TwoStep>)

@@ -33,12 +33,12 @@ std::string listOfLists(const std::vector<std::vector<double>>& lists) {
   return all + "]";
 }
 
-/// One list for all wires, or a list a wire.
+/// One list for all wires, or a list per wire.
 std::string positions(const std::vector<std::vector<double>>& along) {
   return along.size() == 1 ? list(along[0]) : listOfLists(along);
 }
 
-/// One depth for all, or a list a wire.
+/// One depth for all, or a list per wire.
 std::string depths(const std::vector<std::vector<double>>& z) {
   return z.size() == 1 && z[0].size() == 1 ? text(z[0][0]) : listOfLists(z);
 }
@@ -48,7 +48,7 @@ std::string pressureLaw(const std::optional<PressureLaw>& law) {
   return R"({ "p0_MPa": )" + text(law->p0_MPa) + R"(, "exponent": )" + text(law->exponent) + " }";
 }
 
-/// The kinds of ResistanceLaw in the order of its alternatives; pairs need not be said.
+/// The kinds of ResistanceLaw in the order of its alternatives; pairs need not be named.
 enum class LawKind { Pairs, Field };
 constexpr NamedEnum kLaws("law", std::array{std::pair{LawKind::Pairs, "pairs"}, std::pair{LawKind::Field, "field"}});
 

@@ -1,6 +1,5 @@
 #include "io/FilesTogether.h"
 
-#include "io/samples/FillBeside.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
@@ -39,22 +38,21 @@ FilesTogether::~FilesTogether() {
 fs::path FilesTogether::add(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   const fs::path path = folder_ / file;
   auto target = std::make_unique<AtomicFile>(path, true);
-  fs::path beside = target->beside();
-  fillBeside(*target, path, write);
+  target->fill(write);
   target->sync();
   files_.emplace_back(path, std::move(target));
-  return beside;
+  return files_.back().second->temporary();
 }
 
 fs::path FilesTogether::add(const fs::path& file, std::string_view content) {
-  return add(file, [&](const fs::path& beside) { writeFile(beside, content, true); });
+  return add(file, [&](const fs::path& temporary) { writeFile(temporary, content, true); });
 }
 
 bool FilesTogether::keepAs(const fs::path& file, const fs::path& other) {
   std::error_code failed;
   if (!fs::exists(file, failed)) return false;
   const auto written = std::find_if(files_.begin(), files_.end(), [&](const auto& one) { return one.first == file; });
-  if (written != files_.end() && sameBytes(file, written->second->beside())) return false;
+  if (written != files_.end() && sameBytes(file, written->second->temporary())) return false;
   requireFree(other, false);
   fs::rename(file, other, failed);
   if (failed) throw Error(file.string() + ": cannot be kept as " + other.string() + ": " + failed.message());

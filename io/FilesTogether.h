@@ -27,7 +27,7 @@ public:
   std::filesystem::path add(const std::filesystem::path& file,
                             const std::function<void(const std::filesystem::path&)>& write);
   std::filesystem::path add(const std::filesystem::path& file, std::string_view content);
-  /// A file that is there leaves its name for another one, unless what is written in its place is the same. False where
+  /// Renames an existing file, unless the file written in its place has the same bytes. Returns false where
   /// nothing was to be done. Throws Error.
   bool keepAs(const std::filesystem::path& file, const std::filesystem::path& other);
   /// Throws Error.

@@ -25,7 +25,7 @@ struct OutgoingFrame {
 
 /// One JSON object without an end of line: what goes by UDP and ZeroMQ. Forces only where they are valid.
 std::string frameAsJson(const OutgoingFrame& frame);
-/// Names of the columns, with the end of line, for so many forces; and the line of a frame, whose forces are empty
+/// Names of the columns, with the end of line, of this many forces; and the line of a frame, whose forces are empty
 /// fields where they are not valid.
 std::string frameCsvHead(Eigen::Index forces);
 std::string frameAsCsv(const OutgoingFrame& frame, Eigen::Index forces);
@@ -52,8 +52,8 @@ bool staysOnThisComputer(const std::string& where);
 
 /// "udp:HOST:PORT", "osc:HOST:PORT", "zmq:HOST:PORT" (a publisher that connects to a subscriber which is bound there),
 /// "csv:FILE" ("csv:-": standard output; a FIFO is waited for) or "lsl:NAME" (a stream of the Lab Streaming Layer,
-/// whose library is loaded). Only sends, nothing is listened on, but by that library, which tells who asks for its
-/// streams. Throws Error with what is allowed; broadcast and multicast addresses only where they are asked for by
+/// whose library is loaded). Only sends, nothing is listened on, but by that library, which answers searches for its
+/// streams. Throws Error with what is allowed; broadcast and multicast addresses only where they are requested by
 /// `toMany`, and a file that exists with `force`.
 std::unique_ptr<ForceOutlet> openOutlet(const std::string& where, bool toMany, bool force);
 

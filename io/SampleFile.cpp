@@ -1,7 +1,6 @@
 #include "io/SampleFile.h"
 
 #include "io/SampleHead.h"
-#include "io/samples/FillBeside.h"
 #include "io/samples/SampleArrays.h"
 #include "io/samples/SampleReader.h"
 #include "io/samples/SampleWriter.h"
@@ -10,6 +9,7 @@
 #include "model/base/GotExpected.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace palp {
 
@@ -24,7 +24,7 @@ std::string sizes(const SampleSet& set) {
          std::to_string(set.columnWires) + " column-wires, " + std::to_string(set.areaCount) + " areas";
 }
 
-/// Samples of the whole request that the origin describes.
+/// Samples of the complete request that the origin describes.
 std::size_t wholeRequest(const SampleSet& head) {
   const auto perArea = static_cast<std::size_t>(head.origin.perArea);
   return head.origin.areas == "each" ? perArea * static_cast<std::size_t>(head.areaCount) : perArea;
@@ -89,10 +89,10 @@ std::string differenceOfHeads(const SampleSet& a, const SampleSet& b) {
 void saveSamples(const fs::path& path, const SampleSet& set, bool force, const std::stop_token& stop) {
   const SampleFormat format = formatToWrite(path);
   const auto block = [&set](Eigen::Index first, Eigen::Index count) { return samplesBetween(set, first, count); };
-  if (format != SampleFormat::Csv) { // the set is what is asked again and again
+  if (format != SampleFormat::Csv) { // the set is requested again and again
     AtomicFile target(path, force);
-    fillBeside(target, path, [&](const fs::path& beside) {
-      writeSampleArrays(beside, format, {block(0, 0), set.size(), block}, stop);
+    target.fill([&](const fs::path& temporary) {
+      writeSampleArrays(temporary, format, {block(0, 0), set.size(), block}, stop);
     });
     target.commit();
     return;
@@ -110,7 +110,7 @@ SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool al
   SampleSet set = reader->head();
   if (set.secondTouch.rows() > 0 && !alsoTwoAtOnce)
     throw Error(path.string() + ": touches in each sample: " +
-                gotExpected("2 at once", "1 (palp predict takes two, and counts those distinguished from one)"));
+                gotExpected("2 together", "1 (palp predict takes two, and counts those distinguished from one)"));
   if (const auto size = reader->size()) {
     resizeSamples(set, *size);
     reader->read(set, 0, *size, stop);
@@ -164,13 +164,31 @@ MergedSamples mergeSampleFiles(const std::vector<fs::path>& paths, const fs::pat
   SampleWriter writer(path, head, force);
   const std::size_t done = readParts(parts, stop, [&](const SampleSet& block) { writer.append(block); });
   if (head.origin.perArea > 0 && done != wholeRequest(head)) // measured samples are of no request
-    throw Error(path.string() + ": the shards contain " + std::to_string(done) + " samples; the whole request has " +
+    throw Error(path.string() + ": the shards contain " + std::to_string(done) + " samples; the complete request has " +
                 std::to_string(wholeRequest(head)));
   writer.finish(stop);
   const bool mixed = head.origin.madeBy != parts[0].head.origin.madeBy;
   return {done, mixed ? "the shards were made by several programs, whose results may differ in their last digits: " +
                             head.origin.madeBy
                       : ""};
+}
+
+std::string samplesText(const SampleSet& set) {
+  std::string text = sampleFileHead(set);
+  writeSampleLines(set, [&](const std::string& lines) { text += lines; });
+  return text;
+}
+
+SampleSet parseSamples(const std::string& text, const std::string& name) {
+  std::istringstream stream(text);
+  SampleLines lines(stream, name);
+  SampleSet set = readSampleHead(lines);
+  resizeSamples(set, std::count(text.begin(), text.end(), '\n')); // more than there are: the head has lines, too
+  std::string line;
+  Eigen::Index count = 0;
+  for (; lines.next(line); ++count) readSampleLine(lines, line, set, count);
+  resizeSamples(set, count);
+  return set;
 }
 
 } // namespace palp

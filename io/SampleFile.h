@@ -12,7 +12,7 @@ namespace palp {
 /// Samples are CSV: comment lines `# key: value` with the origin and the counts, one line of column names, one line per
 /// sample; numbers read back to the same bits. Displacements or resistances that have no rows have no columns. Under a
 /// name that ends with .h5 or .hdf5 they are HDF5, with .npz arrays of NumPy, with the same head and numbers; which a
-/// file is says its content to who reads it (resources/docs/formats.md).
+/// file is follows from its content when it is read (resources/docs/formats.md).
 
 /// The comment lines and the line of column names.
 std::string sampleFileHead(const SampleSet& set);
@@ -23,7 +23,7 @@ void saveSamples(const std::filesystem::path& path, const SampleSet& set, bool f
 
 /// Reads strictly: a wrong count of numbers, anything that is not a finite number, or a truncated line throws Error
 /// with the line number (in files of arrays with the sample's). Throws Cancelled after a request to stop. Samples of
-/// two touches at once are for who asks for them.
+/// two touches together only if requested.
 SampleSet loadSamples(const std::filesystem::path& path, const std::stop_token& stop = {}, bool alsoTwoAtOnce = false);
 
 /// What was merged.
@@ -40,5 +40,11 @@ MergedSamples mergeSampleFiles(const std::vector<std::filesystem::path>& parts, 
 
 /// Why two sets without samples cannot share one file; empty if they can.
 std::string differenceOfHeads(const SampleSet& a, const SampleSet& b);
+
+/// The text of a CSV file of samples.
+std::string samplesText(const SampleSet& set);
+
+/// Reads it back as strictly as the file; `name` is for refusals. Throws Error.
+SampleSet parseSamples(const std::string& text, const std::string& name);
 
 } // namespace palp

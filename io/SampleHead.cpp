@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kNewestSamples = 1;
 constexpr int kLargestCount = 100000;
+constexpr std::size_t kPiece = 4 << 20; // bytes of text that are written together
 constexpr const char* kFullSolves = "full solves";
 constexpr const char* kSurrogate = "surrogate";
 constexpr const char* kSignals = "signals"; ///< no resistances
@@ -137,7 +138,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   return origin;
 }
 
-/// Sets the rows of the matrices by the names that are there.
+/// Sets the rows of the matrices by the existing names.
 void readColumns(const SampleLines& lines, const std::string& line, SampleSet& set) {
   const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
   const bool displacements = line.find(",u_r") != std::string::npos;
@@ -178,7 +179,7 @@ bool isShape(Eigen::MatrixXd SampleSet::*part, Eigen::Index row) {
   return (part == &SampleSet::touches || part == &SampleSet::secondTouch) && row == kTouchShape;
 }
 
-/// The number that stands for a shape there.
+/// The number of a shape there.
 double readShape(const SampleLines& lines, const std::string& name) {
   const auto shape = indenterShape(name);
   if (!shape) lines.refuse("shape: " + gotExpected(shown(name), indenterShapes()));
@@ -298,7 +299,7 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
     const auto [stop, error] = std::from_chars(next, end, value);
     if (error != std::errc() || (stop != end && *stop != ','))
       lines.refuse("field " + std::to_string(field + 1) + ": " +
-                   gotExpected(shown(split(line)[field]), "a number (the area: a whole one)"));
+                   gotExpected(shown(split(line)[field]), "a number (the area: a whole number)"));
     next = stop + 1;
     ++field;
   };
@@ -320,8 +321,9 @@ void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& 
     }
 }
 
-void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index first, Eigen::Index count) {
-  for (Eigen::Index i = first; i < first + count; ++i) {
+void writeSampleLines(const SampleSet& set, const std::function<void(const std::string&)>& write) {
+  std::string text;
+  for (Eigen::Index i = 0; i < set.size(); ++i) {
     text += std::to_string(set.area(i));
     for (const auto part : kSampleParts)
       for (Eigen::Index row = 0; row < (set.*part).rows(); ++row) {
@@ -331,6 +333,9 @@ void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index fir
           append(text, (set.*part)(row, i));
       }
     text.push_back('\n');
+    if (i + 1 < set.size() && text.size() < kPiece) continue;
+    write(text);
+    text.clear();
   }
 }
 

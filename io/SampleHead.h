@@ -4,6 +4,7 @@
 
 #include "model/SampleSet.h"
 
+#include <functional>
 #include <istream>
 #include <string>
 #include <string_view>
@@ -35,8 +36,8 @@ private:
 /// Throws Error.
 SampleSet readSampleHead(SampleLines& lines);
 
-/// One line a sample, from column `first` of the set on.
-void appendSampleLines(std::string& text, const SampleSet& set, Eigen::Index first, Eigen::Index count);
+/// Calls `write` with the lines of the set, one per sample, in pieces of a few megabytes.
+void writeSampleLines(const SampleSet& set, const std::function<void(const std::string&)>& write);
 
 /// Reads one line into the column of the set (the matrices are wide enough). Throws Error.
 void readSampleLine(const SampleLines& lines, std::string_view line, SampleSet& set, Eigen::Index column);

@@ -2,7 +2,7 @@
 
 #include "io/SampleFile.h"
 #include "io/SampleHead.h"
-#include "io/samples/FillBeside.h"
+#include "io/files/SystemError.h"
 #include "io/samples/RowFile.h"
 #include "io/samples/SampleReader.h"
 #include "model/base/Error.h"
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -23,16 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Eigen::Index kLinesAtOnce = 256;
 constexpr std::size_t kPartBuffer = 1 << 20;
 
 std::string differenceOfMakers(const std::string& before, const std::string& now) {
   if (before == now) return {};
   return "its samples were made by " + (before.empty() ? "an older palp" : before) + ", this is " + now;
-}
-
-[[noreturn]] void failToWrite(const fs::path& path) {
-  throw Error(path.string() + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
 }
 
 } // namespace
@@ -41,9 +35,9 @@ SamplePartWriter::SamplePartWriter(fs::path path, const SampleSet& head, bool fo
     : path_(std::move(path)), part_(linkEnd(path_).string() + ".part"), force_(force) {
   requireWritable(path_, force_);
   file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) failToWrite(part_);
+  if (file_ < 0) cannotWrite(part_);
   try {
-    // File systems without locks (NFS) fail in other ways: the work goes on, unlocked.
+    // File systems without locks (NFS) fail in other ways: the work continues, unlocked.
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw Error(part_.string() +
                   ": another process is writing it; wait until it has finished, or choose another name");
@@ -63,14 +57,14 @@ void SamplePartWriter::resume(const SampleSet& head) {
   std::ifstream stream;
   stream.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
   stream.open(part_, std::ios::binary);
-  if (!stream) throw Error(part_.string() + ": cannot be read: " + std::strerror(errno));
+  if (!stream) cannotRead(part_);
   const std::string text = sampleFileHead(head);
   std::string there(text.size(), '\0');
   stream.read(there.data(), static_cast<std::streamsize>(there.size()));
   there.resize(static_cast<std::size_t>(stream.gcount()));
   const bool begun = there.size() == text.size();
   if (text.compare(0, there.size(), there) == 0 && !begun) { // new, or cut off within the head
-    if (::ftruncate(file_, 0) != 0) failToWrite(part_);
+    if (::ftruncate(file_, 0) != 0) cannotWrite(part_);
     writeAllBytes(file_, part_, text.data(), text.size());
   } else if (there != text) {
     std::ifstream again(part_, std::ios::binary);
@@ -98,7 +92,7 @@ void SamplePartWriter::keepWholeLines(std::istream& stream, const SampleSet& hea
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != fields) break;
     whole += line.size() + 1;
   }
-  if (::ftruncate(file_, static_cast<off_t>(whole)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) failToWrite(part_);
+  if (::ftruncate(file_, static_cast<off_t>(whole)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) cannotWrite(part_);
 }
 
 void SamplePartWriter::append(const SampleSet& block) {
@@ -106,20 +100,15 @@ void SamplePartWriter::append(const SampleSet& block) {
     rows_->append(block);
     return;
   }
-  std::string lines;
-  for (Eigen::Index first = 0; first < block.size(); first += kLinesAtOnce) {
-    lines.clear();
-    appendSampleLines(lines, block, first, std::min(kLinesAtOnce, block.size() - first));
-    writeAllBytes(file_, part_, lines.data(), lines.size());
-  }
+  writeSampleLines(block, [&](const std::string& lines) { writeAllBytes(file_, part_, lines.data(), lines.size()); });
 }
 
 void SamplePartWriter::finish(const std::stop_token& stop) {
   std::error_code ignored;
   if (rows_) {
     AtomicFile target(path_, force_);
-    fillBeside(target, path_,
-               [&](const fs::path& beside) { writeSampleArrays(beside, formatToWrite(path_), rows_->rows(), stop); });
+    target.fill(
+        [&](const fs::path& temporary) { writeSampleArrays(temporary, formatToWrite(path_), rows_->rows(), stop); });
     target.commit();
     fs::remove(part_, ignored);
   } else {

@@ -18,7 +18,7 @@ class RowFile;
 class SamplePartWriter {
 public:
   /// `head` is the set without samples. Throws Error if NAME exists and `force` is not given, if NAME.part belongs to
-  /// other work or another program (the text says what differs), or if another process is writing it.
+  /// other work or another program (the text names the difference), or if another process is writing it.
   SamplePartWriter(std::filesystem::path path, const SampleSet& head, bool force);
   ~SamplePartWriter();
   SamplePartWriter(const SamplePartWriter&) = delete;
@@ -29,7 +29,7 @@ public:
   [[nodiscard]] const std::filesystem::path& partPath() const { return part_; }
   /// Appends and flushes to the system. Throws Error.
   void append(const SampleSet& block);
-  /// Makes NAME of NAME.part. Throws Error; or Cancelled after a request to stop, and then NAME.part stays whole.
+  /// Makes NAME of NAME.part. Throws Error; or Cancelled after a request to stop, and then NAME.part stays complete.
   void finish(const std::stop_token& stop = {});
 
 private:

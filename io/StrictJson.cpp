@@ -39,7 +39,7 @@ private:
   std::vector<std::set<std::string>> open_;
 };
 
-std::string joined(const std::vector<std::string>& words) {
+std::string keyList(const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
   return all;
@@ -51,7 +51,7 @@ std::string plain(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-/// That the file ends before its JSON does, with the line; empty where what is wrong stands within it.
+/// That the file ends before its JSON does, with the line; empty where the error is within it.
 std::string cutOff(std::string_view content, const Json::exception& broken) {
   const auto* at = dynamic_cast<const Json::parse_error*>(&broken);
   if (at == nullptr || at->byte <= content.size()) return {};
@@ -86,14 +86,14 @@ const JsonPlace& JsonPlace::onlyKeys(const std::vector<std::string>& required,
                                      const std::vector<std::string>& optional) const {
   std::vector<std::string> known = required;
   known.insert(known.end(), optional.begin(), optional.end());
-  if (!value_->is_object()) refuse("an object with the keys " + joined(known));
+  if (!value_->is_object()) refuse("an object with the keys " + keyList(known));
   const std::string prefix = key_.empty() ? "" : key_ + ".";
   for (const auto& [key, value] : value_->items())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      JsonPlace(value, file_, "unknown key " + prefix + key).refuse("one of the keys " + joined(known));
+      JsonPlace(value, file_, "unknown key " + prefix + key).refuse("one of the keys " + keyList(known));
   for (const std::string& key : required)
     if (!value_->contains(key))
-      throw Error(file_ + ": " + prefix + key + " is missing; expected the keys " + joined(required));
+      throw Error(file_ + ": " + prefix + key + " is missing; expected the keys " + keyList(required));
   return *this;
 }
 

@@ -12,7 +12,7 @@ namespace palp {
 
 using Json = nlohmann::json;
 
-/// Parses JSON. Throws Error with line and column where it is broken, with the key that stands twice, or where objects
+/// Parses JSON. Throws Error with line and column where it is broken, with the key that appears twice, or where objects
 /// and lists lie deeper in each other than any file of ours.
 Json parseJson(std::string_view content, const std::string& file);
 
@@ -22,14 +22,14 @@ template <class Value> std::string jsonText(const Value& json, int indent = -1) 
   return json.dump(indent, ' ', false, Value::error_handler_t::replace);
 }
 
-/// A value of a JSON file together with where it stands, so that each refusal is one sentence: file, dotted key, value,
+/// A value of a JSON file together with its place, so that each refusal is one sentence: file, dotted key, value,
 /// what is allowed. Every reader throws Error.
 class JsonPlace {
 public:
   JsonPlace(const Json& value, std::string file, std::string key = {})
       : value_(&value), file_(std::move(file)), key_(std::move(key)) {}
 
-  /// Refuses where this is no object, lacks one of the keys or has another one.
+  /// Refuses where this is not an object, lacks one of the keys or has another one.
   const JsonPlace& onlyKeys(const std::vector<std::string>& required,
                             const std::vector<std::string>& optional = {}) const;
 

@@ -72,7 +72,7 @@ StudyAxis studyAxis(const std::string& key, const std::string& words);
 /// The other way.
 std::string studyWords(const StudyAxis& axis);
 
-/// The whole plan as the text of such a file, its design within; with the program that begins it where there is one.
+/// The complete plan as the text of such a file, its design within; with the program that begins it where there is one.
 std::string toJson(const StudyPlan& plan, const std::string& program = {});
 
 } // namespace palp

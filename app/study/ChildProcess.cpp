@@ -13,7 +13,6 @@
 #include <fstream>
 #include <spawn.h>
 #include <sstream>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -75,10 +74,6 @@ double heldAtMost_MB(pid_t process) {
   return 0;
 }
 
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 std::string lastLine(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
@@ -93,7 +88,7 @@ std::string unknownEnd() {
   return std::string("its exit status is unknown: ") + std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
 }
 
-/// What the end of a process says; empty where all is well.
+/// Why a process failed, from its exit status; empty if it succeeded.
 std::string failure(int status, const std::filesystem::path& errors) {
   if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status));
   if (WEXITSTATUS(status) == 0) return {};
@@ -109,9 +104,8 @@ ChildRun runChild(const ChildOrder& order, const std::stop_token& stop) {
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   const pid_t child = start(order);
   int status = 0;
-  struct rusage used {};
   pid_t ended = 0;
-  while ((ended = wait4(child, &status, WNOHANG, &used)) == 0 || (ended < 0 && errno == EINTR)) {
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
     run.peak_MB = std::max(run.peak_MB, heldAtMost_MB(child));
     if (run.failed.empty() && stop.stop_requested()) run.failed = "cancelled";
     if (run.failed.empty() && elapsed() > order.limit_s)
@@ -121,7 +115,6 @@ ChildRun runChild(const ChildOrder& order, const std::stop_token& stop) {
   }
   if (ended < 0 && run.failed.empty()) run.failed = unknownEnd();
   run.seconds = elapsed();
-  run.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
   if (run.failed.empty()) run.failed = failure(status, order.folder / kErrors);
   run.output = readFile(order.folder / kOutput);
   return run;

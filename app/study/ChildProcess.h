@@ -21,7 +21,6 @@ struct ChildOrder {
 struct ChildRun {
   std::string output; ///< standard output
   double seconds = 0; ///< wall time
-  double cpu_s = 0;   ///< of all its threads and children
   double peak_MB = 0; ///< most memory that it held
   std::string failed; ///< why it has no result, in a sentence; empty where it ended with status 0
 };

@@ -18,7 +18,7 @@ extern const char* const kCommit; // Commit.cpp, made anew by CMake at each buil
 
 namespace {
 
-/// How the files of the libraries that decide results begin; VTK and Qt stand for their many parts.
+/// How the files of the libraries that decide results begin; VTK and Qt each for their many parts.
 constexpr std::array<std::string_view, 14> kNamed{
     "libtet.so",         "libcholmod.so", "libopenblas",   "libnlopt", "libhidapi-hidraw.so",
     "libhdf5_serial.so", "libdeflate.so", "libminizip.so", "liblo.so", "libzmq.so",

@@ -71,7 +71,7 @@ std::vector<std::string> wireFaults(const BoardFrame& frame) {
                      std::all_of(rows.begin(), rows.end(), [&](int row) { return frame.state(row, column) == first; });
     wholeColumn[static_cast<std::size_t>(column)] = all;
   }
-  for (const int row : rows) { // a whole row comes first: with it, every column looks bad
+  for (const int row : rows) { // a complete row comes first: with it, every column looks bad
     const ReadingState first = frame.state(row, 0);
     if (first != ReadingState::Good && (frame.state.row(row).array() == first).all()) {
       faults.push_back("row-wire " + std::to_string(row) + ": " + word(first));

@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// What a reading says about its pair of wires.
+/// State of a pair of wires by its reading.
 enum class ReadingState : std::uint8_t { Missing, Good, Short, Open, NotMeasured };
 
 /// One scan of the row-wires, raw.
@@ -40,7 +40,7 @@ DecodedReading decodeCode(std::uint32_t code, double reference_ohm);
 /// The code of a resistance; of infinity open, of zero short.
 std::uint32_t encodeResistance(double resistance_ohm, double reference_ohm);
 
-/// What is wrong with the wires, in words: "column-wire 7: open", "row-wire 4, column-wire 2: short"; empty where all
+/// Faults of the wires, as text: "column-wire 7: open", "row-wire 4, column-wire 2: short"; empty where all
 /// is well.
 std::vector<std::string> wireFaults(const BoardFrame& frame);
 

@@ -73,7 +73,7 @@ std::variant<Readings, BoardEvent, ReportFault> FrameAssembler::add(std::span<co
   return decoded;
 }
 
-/// Where the report stands after the last one; false where it must be dropped.
+/// Position of the report after the last one; false where it must be dropped.
 bool FrameAssembler::follows(const Readings& readings, double hostTime_s) {
   if (last_) {
     const auto sequenceStep = static_cast<std::uint16_t>(readings.sequence - last_->sequence);
@@ -96,7 +96,7 @@ bool FrameAssembler::follows(const Readings& readings, double hostTime_s) {
       clock_us_ += static_cast<std::uint32_t>(clockStep_us);
     }
   }
-  if (!last_ && lastHostTime_s_) // after a pause only the host knows how long it was
+  if (!last_ && lastHostTime_s_) // only the host's clock has the length of a pause
     clock_us_ += static_cast<std::uint64_t>(std::max(0.0, hostTime_s - *lastHostTime_s_) / kSecondsPerMicrosecond);
   last_ = readings;
   lastHostTime_s_ = hostTime_s;

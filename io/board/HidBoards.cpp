@@ -18,8 +18,8 @@ namespace palp {
 
 namespace {
 
-constexpr int kMostReportBytes = 256; // a board may send more than it should
-constexpr int kMostQueued = 128;      // the kernel holds 63; a fast board adds some while they are dropped
+constexpr int kLongestHidReport = 256; // a board may send more than it should
+constexpr int kMostQueued = 128;       // the kernel holds 63; a fast board adds some while they are dropped
 
 /// hidapi keeps the error of opening in one place for all threads.
 std::mutex& openingMutex() {
@@ -68,7 +68,7 @@ public:
   }
 
   Outcome read(RawReport& report, std::chrono::milliseconds timeout) override {
-    report.bytes.resize(kMostReportBytes);
+    report.bytes.resize(kLongestHidReport);
     const int count =
         hid_read_timeout(device_.get(), report.bytes.data(), report.bytes.size(), static_cast<int>(timeout.count()));
     report.hostTime_s = hostClock_s();
@@ -106,7 +106,7 @@ private:
   }
 
   void dropQueued() {
-    std::array<std::uint8_t, kMostReportBytes> bytes{};
+    std::array<std::uint8_t, kLongestHidReport> bytes{};
     for (int i = 0; i < kMostQueued; ++i)
       if (hid_read_timeout(device_.get(), bytes.data(), bytes.size(), 0) <= 0) return;
   }

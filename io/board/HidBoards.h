@@ -8,7 +8,7 @@
 
 namespace palp {
 
-/// A board that the system knows.
+/// A board that the system lists.
 struct HidBoard {
   std::string path;   ///< /dev/hidrawN; changes from plug to plug
   std::string serial; ///< two boards may have the same: then they differ by their path

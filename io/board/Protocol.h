@@ -65,7 +65,7 @@ struct BoardInfo {
   int columnWires = 30;
   int electrodesPerRowWire = 10;
   int electrodesPerColumnWire = 3;
-  int highestRate_Hz = 8000; ///< reports a second
+  int highestRate_Hz = 8000; ///< reports per second
   std::array<double, 4> reference_ohm{300, 1000, 10000, 100000};
   int excitation_mV = 2500;
   int effectiveBits = 18;
@@ -88,7 +88,7 @@ struct BoardConfiguration {
   BoardMode mode = BoardMode::Stream;
   int generation = 0; ///< the board counts it up at each change
   std::uint32_t rowMask = 0x3FF;
-  int rate_Hz = 1000; ///< reports a second
+  int rate_Hz = 1000; ///< reports per second
   int log2Oversampling = 0;
   int range = kAutomaticRange;
   bool operator==(const BoardConfiguration&) const = default;
@@ -113,7 +113,7 @@ enum class EventCode : std::uint8_t {
   ConfigurationChanged = 6
 };
 
-/// Input report 0x02: the answer to a command, or something the board says on its own (tag 0).
+/// Input report 0x02: the answer to a command, or a message that the board sends on its own (tag 0).
 struct BoardEvent {
   std::uint16_t tag = 0;
   std::uint32_t deviceClock_us = 0;

@@ -12,7 +12,7 @@ namespace palp {
 struct RecordingHead {
   BoardInfo info;
   BoardConfiguration configuration;
-  std::string source;             ///< which board, in words
+  std::string source;             ///< which board, as text
   std::string networkFingerprint; ///< empty: no network in use
   std::int64_t startedUnix_s = 0;
 };
@@ -32,6 +32,6 @@ struct RecordingEntry {
 };
 
 // The file: "PALPREC1", u32 length and bytes of the head (JSON), then entries: u8 kind, u8 0, u16 length, f64 host time
-// [s], bytes. Little-endian. It may end anywhere; what is whole counts.
+// [s], bytes. Little-endian. It may end anywhere; complete entries count.
 
 } // namespace palp

@@ -3,6 +3,7 @@
 #include "io/board/ByteOrder.h"
 #include "io/board/recording/RecordingEntries.h"
 #include "io/board/recording/RecordingHead.h"
+#include "io/files/SystemError.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 
@@ -35,8 +36,7 @@ RecordingReader::RecordingReader(const std::filesystem::path& path)
     : stream_(std::make_unique<std::ifstream>(path, std::ios::binary)), name_(path.string()) {
   std::error_code ignored;
   if (!*stream_ || std::filesystem::is_directory(path, ignored))
-    throw Error(name_ +
-                ": cannot be read: " + std::strerror(std::filesystem::is_directory(path, ignored) ? EISDIR : errno));
+    cannotRead(path, systemMessage(std::filesystem::is_directory(path, ignored) ? EISDIR : errno));
   readHead();
 }
 
@@ -144,7 +144,7 @@ bool RecordingReader::findNext() {
   return false;
 }
 
-/// What is left is the begin of an entry, or nothing that is known.
+/// The remainder is the begin of an entry, or unknown bytes.
 void RecordingReader::end() {
   const std::span<const std::uint8_t> rest = ahead(kEntryHead);
   if (rest.empty()) return;

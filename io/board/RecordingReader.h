@@ -12,23 +12,23 @@
 
 namespace palp {
 
-/// Reads a recording entry by entry. Bytes that are no entry are left out, up to the next report whose checksum is
+/// Reads a recording entry by entry. Bytes outside of entries are left out, up to the next report whose checksum is
 /// right.
 class RecordingReader {
 public:
-  /// Throws Error where the file is no recording.
+  /// Throws Error where the file is not a recording.
   explicit RecordingReader(const std::filesystem::path& path);
-  /// From any stream of bytes; `name` stands in the refusals.
+  /// From any stream of bytes; `name` appears in error messages.
   RecordingReader(std::unique_ptr<std::istream> stream, std::string name);
 
   [[nodiscard]] const RecordingHead& head() const { return head_; }
-  /// The next whole entry; none at the end.
+  /// The next complete entry; none at the end.
   std::optional<RecordingEntry> next();
   /// The same into an entry whose memory is used again; false at the end.
   bool next(RecordingEntry& entry);
   /// After the end: bytes of an entry that was cut off.
   [[nodiscard]] bool cutOff() const { return cutOff_; }
-  /// Bytes that were left out so far because they are no entry.
+  /// Bytes that were left out so far because they are outside of entries.
   [[nodiscard]] std::uint64_t spoiltBytes() const { return spoilt_; }
 
   /// Where the next entry begins [bytes], and on from such a place.
@@ -38,7 +38,7 @@ public:
   [[nodiscard]] std::uint64_t size();
 
 private:
-  /// The next bytes: at least so many where the file has them. Valid until the next call.
+  /// The next bytes: at least `count` where the file has them. Valid until the next call.
   std::span<const std::uint8_t> ahead(std::size_t count);
   void pass(std::size_t bytes);
   void readHead();

@@ -4,6 +4,7 @@
 #include "io/board/ByteOrder.h"
 #include "io/board/recording/RecordingEntries.h"
 #include "io/board/recording/RecordingHead.h"
+#include "io/files/SystemError.h"
 #include "model/base/Error.h"
 
 #include <fcntl.h>
@@ -19,7 +20,7 @@ namespace palp {
 
 namespace {
 
-constexpr std::size_t kLongestEntry = 65535;   // a tare of the largest board the protocol knows takes 65,296
+constexpr std::size_t kLongestEntry = 65535;   // a tare of the largest board of the protocol takes 65,296
 constexpr std::size_t kMostPending = 64 << 20; // a minute and more at 8000 reports/s
 constexpr auto kFlushInterval = std::chrono::milliseconds(500);
 
@@ -44,11 +45,10 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Record
   std::array<std::uint8_t, 4> length{};
   putLittleEndian<4>(length, 0, static_cast<std::uint32_t>(text.size()));
   const std::string bytes = std::string(kRecordingMagic) + std::string(length.begin(), length.end()) + text;
-  file_ = ::open(target.beside().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (file_ < 0) throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+  file_ = ::open(target.temporary().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  if (file_ < 0) cannotWrite(path);
   try {
-    if (writeBytes_(file_, bytes) < bytes.size())
-      throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+    if (writeBytes_(file_, bytes) < bytes.size()) cannotWrite(path);
     target.commit(); // what follows goes into the same file, by its new name
   } catch (...) {    // the destructor does not run for what was never constructed
     ::close(file_);
@@ -99,7 +99,7 @@ std::string RecordingWriter::write(const std::string& block, std::uint64_t& entr
   if (end >= 0) {
     [[maybe_unused]] const int cut = ::ftruncate(file_, end - static_cast<off_t>(written - whole));
   }
-  return inWords(std::strerror(reason));
+  return inWords(systemMessage(reason));
 }
 
 void RecordingWriter::run() {

@@ -15,11 +15,11 @@ namespace palp {
 
 /// Writes a recording in a thread of its own, so that no disk holds up the reader; hands over to the system at least
 /// each second. The head is written as AtomicFile does, so that a recording that is replaced survives a full disk; the
-/// entries grow in the file's place, so that a crash loses a second at most. On a full disk it ends with a whole
+/// entries grow in the file's place, so that a crash loses a second at most. On a full disk it ends with a complete
 /// entry.
 class RecordingWriter {
 public:
-  /// Writes as many bytes as the system takes; where not all, errno says why. Tests put their own in its place.
+  /// Writes as many bytes as the system takes; where not all, errno has the reason. Tests put their own in its place.
   using WriteBytes = std::function<std::size_t(int file, std::string_view bytes)>;
   static std::size_t writtenOf(int file, std::string_view bytes);
 
@@ -31,7 +31,7 @@ public:
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
   void append(RecordingEntry::Kind kind, double hostTime_s, std::span<const std::uint8_t> bytes);
-  /// Writes what is left, and ends: reports(), dropped() and failure() are then the last word.
+  /// Writes the remainder, and ends: reports(), dropped() and failure() are final then.
   void finish();
 
   /// Reports that the system has taken; those of the last half second may still wait.
@@ -48,8 +48,8 @@ private:
   /// Nothing more is written; the block at hand is dropped.
   void fail(const std::string& why);
   [[nodiscard]] std::string inWords(const std::string& why) const;
-  /// Writes whole entries; why not all of them, and how many reports there were among those that were written. What was
-  /// written of an entry that was cut off is taken back.
+  /// Writes complete entries; why not all of them, and how many reports there were among those that were written. What
+  /// was written of an entry that was cut off is taken back.
   std::string write(const std::string& block, std::uint64_t& entries, std::uint64_t& reports);
 
   std::filesystem::path path_;

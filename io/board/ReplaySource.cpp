@@ -14,8 +14,8 @@ constexpr double kLongestGap_s = 1;  // longer pauses of the recording are cut t
 constexpr double kSameTime_s = 1e-6; // a time in the recording and back loses less
 constexpr int kFramesToGoBack = 3;   // that must begin to know where the last but one began
 
-constexpr std::size_t kBeside = 64;         // reports that are measured beside each that is played,
-constexpr std::size_t kMeanwhile = 1 << 10; // and at a time while one waits
+constexpr std::size_t kMeasuredPerReport = 64; // reports that are measured with each that is played,
+constexpr std::size_t kMeanwhile = 1 << 10;    // and at a time while one waits
 
 } // namespace
 
@@ -35,7 +35,7 @@ void ReplaySource::measure(std::size_t reports) {
   control_->marks_ = index_.marks();
 }
 
-/// Waits, and goes on measuring meanwhile.
+/// Waits, and continues measuring meanwhile.
 void ReplaySource::wait(std::chrono::duration<double> time) {
   const double until_s = hostClock_s() + time.count();
   while (!index_.complete() && hostClock_s() < until_s) measure(kMeanwhile);
@@ -74,7 +74,7 @@ void ReplaySource::goToFrameBefore(double end_s) {
   for (std::size_t earlier = 0; !goToFrameBefore(end_s, index_.before(end_s, earlier));) ++earlier;
 }
 
-/// By the frames' numbers, not by their length: on a busy host many reports come at once and others late. False where
+/// By the frames' numbers, not by their length: on a busy host many reports come together and others late. False where
 /// too few frames begin behind `from`.
 bool ReplaySource::goToFrameBefore(double end_s, const ReplayPlace& from) {
   cursor_.goTo(from);
@@ -105,7 +105,7 @@ void ReplaySource::goOnFrom(double hostTime_s) {
   if (control_->paused) control_->steps = 1; // so that one sees where one is
 }
 
-/// What was asked for since: another place, or the loop's begin. False while that is not measured yet.
+/// What was requested since: another place, or the loop's begin. False while that is not measured yet.
 bool ReplaySource::follow() {
   double sought_s = control_->seek_s_;
   if (sought_s >= 0) {
@@ -151,11 +151,11 @@ std::string ReplaySource::reason() const {
 }
 
 ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::milliseconds timeout) {
-  if (!index_.complete()) measure(kBeside);
+  if (!index_.complete()) measure(kMeasuredPerReport);
   waits_ = !follow();
   if (waits_) {
     wait(std::min(timeout, std::chrono::milliseconds(20)));
-    asked_s_ = hostClock_s();
+    requested_s_ = hostClock_s();
     return Outcome::Nothing;
   }
   RecordingEntry* next = cursor_.report(); // with what lies before it
@@ -165,16 +165,16 @@ ReportSource::Outcome ReplaySource::read(RawReport& report, std::chrono::millise
   const bool past = here().reports < target_;
   if (control_->paused && !stepping && !past) {
     wait(std::min(timeout, std::chrono::milliseconds(20)));
-    asked_s_ = hostClock_s();
+    requested_s_ = hostClock_s();
     return Outcome::Nothing;
   }
   const double speed = control_->speed;
   const double now_s = hostClock_s();
   if (!started_) playedTo_s_ = next->hostTime_s;
   playedTo_s_ = std::max(playedTo_s_, next->hostTime_s - kLongestGap_s);
-  if (started_ && speed > 0) playedTo_s_ += (now_s - asked_s_) * speed;
+  if (started_ && speed > 0) playedTo_s_ += (now_s - requested_s_) * speed;
   started_ = !past;
-  asked_s_ = now_s;
+  requested_s_ = now_s;
   const double wait_s = speed > 0 && !stepping && !past ? (next->hostTime_s - playedTo_s_) / speed : 0;
   if (wait_s > 0) {
     wait(std::min<std::chrono::duration<double>>(std::chrono::duration<double>(wait_s), timeout));

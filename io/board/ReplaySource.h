@@ -25,7 +25,7 @@ struct ReplayControl {
   /// That is read first, as fast as it can be, from before a place that is gone to; its frames are LiveFrame::past.
   std::atomic<double> past_s{0};
 
-  /// Goes on from this time of the recording; while paused, to the end of the first frame there.
+  /// Continues from this time of the recording; while paused, to the end of the first frame there.
   void seek(double to_s) { seek_s_ = to_s; }
   /// The same from the begin of the frame before the one whose last report came at this host time; the first has none
   /// before it and is gone to itself.
@@ -51,7 +51,7 @@ private:
 /// it is still measured; going to a place that was not reached yet waits for that.
 class ReplaySource : public ReportSource {
 public:
-  /// So many reports are measured before it returns: a fraction of a second.
+  /// Number of reports that are measured before it returns: a fraction of a second.
   static constexpr std::size_t kMeasuredAtOnce = 1 << 18;
 
   ReplaySource(const std::filesystem::path& path, std::shared_ptr<ReplayControl> control,
@@ -71,7 +71,7 @@ public:
     cursor_.here().mark = text;
     cursor_.here().markTime_s = hostTime_s;
   }
-  /// That mark stands where the recording was taken up last, or behind that place: not before it.
+  /// That mark is where the recording last continued, or after that place: not before it.
   [[nodiscard]] bool markFollowsJump() const { return here().markTime_s >= takenUp_s_; }
   /// The tare that held at this place when it was recorded; null: none.
   [[nodiscard]] const std::shared_ptr<const Tare>& tare() const { return here().tare; }
@@ -98,12 +98,12 @@ private:
   ReplayIndex index_;
   ReplayCursor cursor_;
   std::shared_ptr<ReplayControl> control_;
-  std::size_t marks_ = 0;                       ///< that the control knows
+  std::size_t marks_ = 0;                       ///< that the control has
   double takenUp_s_ = 0;                        ///< host time from which it was read on last
   std::size_t target_ = 0;                      ///< reports before the place that was gone to last
   double target_s_ = 0;                         ///< host time of that place
   double playedTo_s_ = 0;                       ///< host time of the recording that is reached
-  double asked_s_ = 0;                          ///< host clock when that was
+  double requested_s_ = 0;                      ///< host clock when that was
   std::pair<double, double> emptyLoop_{-1, -1}; ///< begin and end of a loop that holds no report: it is played on
   bool started_ = false;
   bool jumped_ = false;

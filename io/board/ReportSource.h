@@ -10,12 +10,12 @@
 
 namespace palp {
 
-/// A board that cannot be opened, or that says what this program does not understand.
+/// A board that cannot be opened, or whose messages this program does not understand.
 struct BoardError : Error {
   using Error::Error;
 };
 
-/// A board that is there but may not be opened by this user.
+/// An existing board that may not be opened by this user.
 struct BoardPermissionError : BoardError {
   using BoardError::BoardError;
 };
@@ -39,7 +39,7 @@ public:
 
   virtual ~ReportSource() = default;
 
-  /// Which board, in words.
+  /// Which board, as text.
   [[nodiscard]] virtual std::string name() const = 0;
   /// Wires, references [ohm] and highest rate [reports/s]: resistances are in ohm, times in seconds.
   [[nodiscard]] virtual const BoardInfo& info() const = 0;

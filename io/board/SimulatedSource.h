@@ -18,7 +18,7 @@ public:
   /// Gives a board what was set, where that is another state than the one it has; 0: it has none yet, as one that has
   /// just been opened. Returns the state that it has now. In the source's thread.
   std::uint64_t applyTo(VirtualBoard& board, std::uint64_t applied);
-  /// A board that is let go keeps its temperature, which goes on as it would have while it is away.
+  /// A released board keeps its temperature, which continues as it would have while it is away.
   void keepWarmth(const VirtualBoard& board);
   void giveWarmth(VirtualBoard& board);
 

@@ -16,10 +16,10 @@ struct Tare {
   int frames = 0;           ///< that were averaged
 };
 
-/// As it stands in a recording: u16 row-wires, u16 column-wires, u32 frames, f64 noise, f64 each resistance [ohm],
+/// As bytes of a recording: u16 row-wires, u16 column-wires, u32 frames, f64 noise, f64 each resistance [ohm],
 /// column by column; little-endian.
 std::vector<std::uint8_t> encode(const Tare& tare);
-/// None where the bytes are no tare of a board of this size.
+/// None where the bytes are not a tare of a board of this size.
 std::optional<Tare> decodeTare(std::span<const std::uint8_t> bytes, int rowWires, int columnWires);
 
 } // namespace palp

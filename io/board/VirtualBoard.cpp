@@ -11,7 +11,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kSecondsPerTick = 1e-6;
+constexpr double kClockTick_s = 1e-6;
 constexpr std::uint64_t kMicrosecondsPerSecond = 1'000'000;
 constexpr std::uint32_t kPatternBase = 0x100000;
 constexpr std::uint32_t kPatternRow = 0x1000;
@@ -143,13 +143,13 @@ void VirtualBoard::advance(std::uint64_t clock_us, const Send& send) {
     ++sent_;
     sendWithFaults(encode(nextReadings(*due_us)), send);
   }
-  time_s_ = static_cast<double>(clock_us - *start_us_) * kSecondsPerTick;
+  time_s_ = static_cast<double>(clock_us - *start_us_) * kClockTick_s;
 }
 
 Readings VirtualBoard::nextReadings(std::uint64_t clock_us) {
   const BoardInfo& info = settings_.info;
   const BoardConfiguration& configuration = settings_.configuration;
-  time_s_ = static_cast<double>(clock_us - *start_us_) * kSecondsPerTick;
+  time_s_ = static_cast<double>(clock_us - *start_us_) * kClockTick_s;
   followWarming();
   Readings readings;
   const bool first = row_ == nextRow(-1) && firstColumn_ == 0;

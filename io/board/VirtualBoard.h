@@ -53,7 +53,7 @@ public:
   [[nodiscard]] std::optional<Report> feature(std::uint8_t id) const;
   /// Applies feature 0x11; false where the board refuses it.
   bool setFeature(std::span<const std::uint8_t> report);
-  /// Takes a command; its answer comes among the next reports. False where it is no command.
+  /// Takes a command; its answer comes among the next reports. Returns false where it is not a command.
   bool output(std::span<const std::uint8_t> report);
 
   /// Sends what is due up to this clock, in order; a truncated report is shorter than 64 bytes.
@@ -77,7 +77,7 @@ private:
   using Send = std::function<void(std::span<const std::uint8_t>)>;
   Readings nextReadings(std::uint64_t clock_us);
   std::uint32_t code(int row, int column, double reference_ohm);
-  /// Another warming than before begins now, from the temperature that is there.
+  /// Another warming than before begins now, from the present temperature.
   void followWarming();
   double disturbed(int row, int column, double resistance_ohm);
   [[nodiscard]] double temperature_degC() const;

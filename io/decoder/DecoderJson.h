@@ -33,7 +33,7 @@ OrderedJson modelJson(const Decoder& decoder);
 /// Reads the model of the decoder's kind.
 void readModel(const JsonPlace& place, Decoder& decoder);
 
-/// Refuses `place` unless its size is what the rest of the file wants.
+/// Refuses `place` unless its size is what the remainder of the file needs.
 void requireSize(const JsonPlace& place, Eigen::Index size, Eigen::Index wanted, const std::string& what);
 
 } // namespace palp

@@ -15,16 +15,16 @@ namespace palp {
 namespace {
 
 constexpr int kMostTableNodes = 1000, kMostExponent = 12;
-constexpr std::size_t kMostDeflated = 1100; // deflate makes at most so many bytes of one
+constexpr std::size_t kMostDeflated = 1100; // largest ratio of inflated to deflated bytes
 
 /// What the coefficients are packed along: from one node to the next along the first place, and along the second. They
-/// are smooth, so what is left of the mixed difference is small.
+/// are smooth, so the mixed difference is small.
 std::array<std::size_t, 2> stridesOf(const SplineTable& table) {
   const auto one = static_cast<std::size_t>(table.outputs() * table.terms());
   return {one, one * static_cast<std::size_t>(table.nodes[0])};
 }
 
-/// The coefficients in whole parts, as mixed differences, deflated; null where they are no whole parts (older files).
+/// The coefficients as integers, in mixed differences, deflated; null where they are not integers (older files).
 OrderedJson packedCoefficients(const SplineTable& table) {
   std::vector<std::uint32_t> parts;
   parts.reserve(static_cast<std::size_t>(table.coefficients.size()));
@@ -150,7 +150,7 @@ SplineTable readTable(const JsonPlace& place) {
   return table;
 }
 
-/// What a table needs beside it to be inverted.
+/// What a table needs with it to be inverted.
 void readInversion(const JsonPlace& place, KernelForwardModel& model) {
   model.table = readTable(place.at("table"));
   model.initialGuesses = readMatrix(place.at("starts"));

@@ -1,10 +1,9 @@
 #include "io/measured/TextLines.h"
 
+#include "io/files/SystemError.h"
 #include "model/base/Error.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 namespace palp {
 
@@ -55,7 +54,7 @@ std::string fromLatin1(const std::string& text) {
 } // namespace
 
 TextLines::TextLines(const fs::path& path) : path_(path), stream_(path, std::ios::binary), buffer_(kBuffer_bytes) {
-  if (!stream_) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
+  if (!stream_) cannotRead(path);
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) size_ = static_cast<double>(fs::file_size(path, ignored));
   detectEncoding();

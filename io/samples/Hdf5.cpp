@@ -1,5 +1,6 @@
 #include "io/samples/Hdf5.h"
 
+#include "io/files/SystemError.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kMostDatasets = 10'000;
 // To find a chunk by its number the library counts from the first one: 50 ns each time.
 constexpr double kFewChunks = 1000, kBytesASquare = 25; ///< the time in which 500 MB/s would be read
 
-/// Held by every call of the library, which has one state for the whole program.
+/// Held by every call of the library, which has one state for the complete program.
 std::unique_lock<std::mutex> inLibrary() {
   static std::mutex one;
   std::unique_lock lock(one);
@@ -47,7 +48,7 @@ public:
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; } // NOLINT: it stands for the id everywhere
+  operator hid_t() const { return id_; } // NOLINT: used as the id everywhere
 
 private:
   hid_t id_;
@@ -58,7 +59,7 @@ hid_t fileType(Hdf5Number number) {
   return number == Hdf5Number::Double ? H5T_IEEE_F64LE : H5T_STD_I32LE;
 }
 
-/// UTF-8 of so many bytes; H5T_VARIABLE: of any length, which h5py reads as text.
+/// UTF-8 of `length` bytes; H5T_VARIABLE: of any length, which h5py reads as text.
 hid_t textType(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, length);
@@ -175,7 +176,7 @@ Hdf5File::Hdf5File(std::filesystem::path path, Open how) : path_(std::move(path)
   H5Pset_obj_track_times(plan, false);      // the same bytes at any time
   H5Pset_file_locking(access, false, true); // the file is nobody else's, and some file systems have no locks
   file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, plan, access);
-  if (file_ < 0) throw Error(path_.string() + ": cannot be written: " + std::strerror(errno));
+  if (file_ < 0) cannotWrite(path_);
 }
 
 Hdf5File::~Hdf5File() {
@@ -191,7 +192,7 @@ void Hdf5File::close() {
   for (const auto& [name, id] : datasets_) whole = H5Dclose(id) >= 0 && whole;
   datasets_.clear();
   whole = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0 && whole;
-  const std::string reason = std::strerror(errno);
+  const std::string reason = systemMessage();
   whole = H5Fclose(file_) >= 0 && whole;
   file_ = -1;
   if (!whole) refuse("cannot be written: " + reason);
@@ -223,7 +224,7 @@ void Hdf5File::setAttribute(const std::string& dataset, const std::string& key, 
   const void* bytes = words != nullptr   ? static_cast<const void*>(&letters)
                       : whole != nullptr ? static_cast<const void*>(whole)
                                          : static_cast<const void*>(&std::get<double>(value));
-  if (H5Awrite(attribute, type, bytes) < 0) refuse("cannot be written: " + std::string(std::strerror(errno)));
+  if (H5Awrite(attribute, type, bytes) < 0) cannotWrite(path_);
 }
 
 std::map<std::string, std::string> Hdf5File::attributes() const {
@@ -286,8 +287,7 @@ void Hdf5File::writeChunk(const std::string& name, std::uint64_t row, std::span<
   std::vector<hsize_t> place(shapeOf(id).size(), 0);
   place[0] = row;
   errno = 0;
-  if (H5Dwrite_chunk(id, H5P_DEFAULT, 0, place.data(), packed.size(), packed.data()) < 0)
-    refuse("cannot be written: " + std::string(std::strerror(errno)));
+  if (H5Dwrite_chunk(id, H5P_DEFAULT, 0, place.data(), packed.size(), packed.data()) < 0) cannotWrite(path_);
 }
 
 std::map<std::string, std::vector<std::uint64_t>> Hdf5File::shapes() const {
@@ -326,7 +326,7 @@ Hdf5Layout Hdf5File::layout(const std::string& name, Hdf5Number number) const {
   const H5T_class_t kind = H5Tget_class(type);
   const bool whole = number == Hdf5Number::Int32; // the library would cut fractions off
   if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT))
-    refuse("dataset " + name + " does not contain " + (whole ? "whole " : "") + "numbers");
+    refuse("dataset " + name + " does not contain " + (whole ? "whole numbers" : "numbers"));
   const std::vector<hsize_t> shape = shapeOf(id);
   Hdf5Layout found;
   found.shape.assign(shape.begin(), shape.end());

@@ -30,7 +30,7 @@ struct Hdf5Place {
 /// What a dataset is made of. Rows are along its first dimension.
 struct Hdf5Layout {
   std::vector<std::uint64_t> shape;
-  std::uint64_t chunkRows = 0; ///< 0: not in chunks of whole rows
+  std::uint64_t chunkRows = 0; ///< 0: not in chunks of complete rows
   /// Whether its chunks are of this number and pass through the filters shuffle and deflate, in this order, alone.
   bool shuffledDeflate = false;
   /// Of those, one after the other. Empty: to find them all would take the library long.
@@ -50,7 +50,7 @@ public:
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  /// Writes what is still in memory. Without it nothing says whether the file is whole.
+  /// Writes what is still in memory. Without it nothing shows whether the file is complete.
   void close();
 
   /// Of the file where `dataset` is empty.
@@ -58,7 +58,7 @@ public:
   /// The file's own ones as text, numbers as shortest text. Those that are neither texts nor numbers are refused.
   [[nodiscard]] std::map<std::string, std::string> attributes() const;
 
-  /// In chunks of `chunkRows` whole rows, shuffled and deflated.
+  /// In chunks of `chunkRows` complete rows, shuffled and deflated.
   void addDataset(const std::string& name, Hdf5Number number, const std::vector<std::uint64_t>& shape,
                   std::uint64_t chunkRows);
   void addTexts(const std::string& name, const std::vector<std::string>& texts);

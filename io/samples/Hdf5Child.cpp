@@ -1,5 +1,6 @@
 #include "io/samples/Hdf5Child.h"
 
+#include "io/files/SystemError.h"
 #include "io/samples/Hdf5Messages.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -27,7 +28,7 @@ namespace {
 constexpr int kLookEvery_ms = 20;                    ///< for a request to stop
 constexpr std::uint64_t kMostWords_bytes = 64 << 20; ///< attributes, names of columns, places of chunks
 
-/// Beside the program, or where an installation has it.
+/// Next to the program, or where an installation has it.
 fs::path readingProgram() {
   std::error_code none;
   const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
@@ -65,7 +66,7 @@ pid_t startReading(const fs::path& file, int socket) {
   const int failed = posix_spawn(&process, program.c_str(), &actions, &attributes, words.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw Error(program.string() + ": cannot be started: " + std::strerror(failed)); // NOLINT
+  if (failed != 0) throw Error(program.string() + ": cannot be started: " + systemMessage(failed));
   return process;
 }
 
@@ -105,7 +106,7 @@ Hdf5Child::Hdf5Child(fs::path path, std::stop_token stop) : path_(std::move(path
   file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   std::array<int, 2> ends{};
   if (file_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    const std::string reason = std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
+    const std::string reason = systemMessage();
     if (file_ >= 0) ::close(file_);
     refuse("cannot be read: " + reason);
   }

@@ -34,7 +34,7 @@ public:
   /// A chunk as it is stored, in `room`, which grows where it is too small; nothing where it is not within the file.
   /// Read here, by many threads at a time: what unpacks it is not the library.
   std::span<const unsigned char> readChunk(const Hdf5Place& place, std::vector<unsigned char>& room) const;
-  /// So many numbers in all.
+  /// How many numbers in all.
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::span<double> values) const;
   void readRows(const std::string& name, std::uint64_t row, std::uint64_t count, std::span<std::int32_t> values) const;
 
@@ -42,9 +42,9 @@ public:
   [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }
 
 private:
-  /// `room` says where an answer of so many bytes goes; null: they are too many.
+  /// `room` returns the memory for an answer of a number of bytes; null: they are too many.
   void ask(const Hdf5Request& request, const std::function<void*(std::uint64_t bytes)>& room) const;
-  /// An answer of at most so many bytes.
+  /// An answer of at most `most` bytes.
   [[nodiscard]] std::string answer(const Hdf5Request& request, std::uint64_t most) const;
   void readNumbers(const std::string& name, std::uint64_t row, std::uint64_t count, Hdf5Number number,
                    std::span<std::byte> to) const;

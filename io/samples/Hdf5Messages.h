@@ -1,7 +1,7 @@
 #pragma once
 
 // Private to io: what palp and palp-hdf5, the process that reads HDF5 files for it, say to each other through a socket
-// of one machine. Each request is answered by one Hdf5Reply and so many bytes.
+// of one machine. Each request is answered by one Hdf5Reply and its bytes.
 
 #include "io/samples/Hdf5.h"
 
@@ -18,7 +18,7 @@ enum class Hdf5Question : std::uint32_t {
   Datasets ///< of numbers, in all groups: path, sizes separated by blanks, each ended by a zero
 };
 
-/// Shorter than a page, so that it is sent at once.
+/// Shorter than a page, so that it is sent in one piece.
 struct Hdf5Request {
   Hdf5Question question = Hdf5Question::Attributes;
   Hdf5Number number = Hdf5Number::Double;

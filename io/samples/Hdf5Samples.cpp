@@ -57,7 +57,7 @@ std::string shapeText(const std::vector<std::uint64_t>& shape) {
   return text;
 }
 
-/// What is not finite is no number when it is multiplied by 0. Eigen's allFinite takes three times as long.
+/// A value that is not finite gives NaN when it is multiplied by 0. Eigen's allFinite takes three times as long.
 bool isFinite(const Eigen::Ref<const Eigen::MatrixXd>& values) {
   return (values.array() * 0).sum() == 0;
 }

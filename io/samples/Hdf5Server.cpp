@@ -28,8 +28,8 @@ constexpr int kSocket = STDIN_FILENO;
 [[maybe_unused]] constexpr rlim_t kMemory_bytes = 256 << 20,
                                   kMemoryPerFileByte = 16; ///< packed numbers are larger in memory
 constexpr double kTime_s = 0.5;                            ///< of the processor, for what takes a millisecond
-constexpr double kFileRate = 500e6, kNumbersRate = 20e6;   ///< bytes a second, of a slow machine
-constexpr double kWaiting = 120;                           ///< for a slow disk: so many times longer in all
+constexpr double kFileRate = 500e6, kNumbersRate = 20e6;   ///< bytes per second, of a slow machine
+constexpr double kWaiting = 120;                           ///< for a slow disk: that many times longer in all
 
 void limit(int resource, rlim_t most) {
   const rlimit wanted{most, most};

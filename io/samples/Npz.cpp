@@ -1,5 +1,6 @@
 #include "io/samples/Npz.h"
 
+#include "io/files/SystemError.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
@@ -48,7 +49,7 @@ std::string wide(const std::string& text, std::size_t length) {
   return bytes;
 }
 
-/// What stands after 'key': in the head, a dictionary of Python's; empty if it is not there.
+/// What follows 'key': in the head, a dictionary of Python's; empty if it is missing.
 std::string valueAfter(const std::string& head, const std::string& key) {
   const std::size_t at = head.find("'" + key + "':");
   if (at == std::string::npos) return {};
@@ -78,10 +79,10 @@ bool readShape(const std::string& text, std::vector<std::uint64_t>& shape) {
 }
 
 std::string systemWords() {
-  return errno != 0 ? std::strerror(errno) : "the zip file cannot grow";
+  return errno != 0 ? systemMessage() : "the zip file cannot grow";
 }
 
-/// Numbers of one of NumPy's types, converted; what cannot be one (NaN where whole ones are wanted) gives its smallest.
+/// Numbers of one of NumPy's types, converted; what cannot be converted (NaN to an integer) gives its smallest.
 template <class From, class To> void convert(std::span<const unsigned char> bytes, std::span<To> values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     From value;

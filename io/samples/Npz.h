@@ -12,7 +12,7 @@
 
 namespace palp {
 
-/// What the head of a .npy says.
+/// The head of a .npy.
 struct NpyHead {
   std::string type; ///< "<f8", "<i4", "<U12"
   std::vector<std::uint64_t> shape;
@@ -75,7 +75,7 @@ private:
   NpyHead head_;
 };
 
-/// Names of the arrays in a file, without ".npy", with what their heads say. Throws Error where it is no zip file of
+/// Names of the arrays in a file, without ".npy", with their heads. Throws Error where it is not a zip file of
 /// arrays.
 std::map<std::string, NpyHead> npzArrays(const std::filesystem::path& path);
 

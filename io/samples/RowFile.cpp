@@ -1,30 +1,21 @@
 #include "io/samples/RowFile.h"
 
 #include "io/SampleHead.h"
-#include "model/base/Error.h"
+#include "io/files/SystemError.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace palp {
-
-namespace {
-
-std::string errnoWords() {
-  return std::strerror(errno); // NOLINT(concurrency-mt-unsafe)
-}
-
-} // namespace
 
 void writeAllBytes(int file, const std::filesystem::path& name, const char* bytes, std::size_t count) {
   for (std::size_t done = 0; done < count;) {
     const ssize_t written = ::write(file, bytes + done, count - done);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw Error(name.string() + ": cannot be written: " + errnoWords());
+    if (written < 0) cannotWrite(name);
     done += static_cast<std::size_t>(written);
   }
 }
@@ -36,7 +27,7 @@ RowFile::RowFile(int file, std::filesystem::path name, off_t begin, SampleSet he
   if (end > begin_) count_ = (end - begin_) / static_cast<off_t>(rowBytes_);
   const off_t whole = begin_ + count_ * static_cast<off_t>(rowBytes_);
   if (end < 0 || (end > whole && ::ftruncate(file_, whole) != 0) || ::lseek(file_, whole, SEEK_SET) < 0)
-    throw Error(name_.string() + ": cannot be written: " + errnoWords());
+    cannotWrite(name_);
 }
 
 void RowFile::append(const SampleSet& block) {
@@ -66,7 +57,7 @@ SampleSet RowFile::block(Eigen::Index first, Eigen::Index count) const {
   for (std::size_t done = 0; done < wanted;) {
     const ssize_t got = ::pread(file_, bytes + done, wanted - done, from + static_cast<off_t>(done));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw Error(name_.string() + ": cannot be read: " + (got == 0 ? "it ends too early" : errnoWords()));
+    if (got <= 0) cannotRead(name_, got == 0 ? "it ends too early" : systemMessage());
     done += static_cast<std::size_t>(got);
   }
   SampleSet set = head_;

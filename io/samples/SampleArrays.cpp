@@ -25,7 +25,7 @@ constexpr std::array kWholeKeys{
     "area_count"};
 constexpr std::array kRealKeys{"solver_tolerance", "surrogate_error"};
 constexpr Eigen::Index kMostAtOnce = 4096;
-constexpr Eigen::Index kChunk_bytes = 1 << 20; ///< HDF5 keeps a chunk of this size at hand by itself
+constexpr Eigen::Index kChunk_bytes = 1 << 20; ///< HDF5 caches a chunk of this size by default
 
 constexpr std::size_t kLarge_bytes = 1 << 22;
 

@@ -27,15 +27,15 @@ constexpr const char* kColumnsArray = "columns"; ///< names of the columns that 
 
 constexpr const char* kNamesArray = "arrays"; ///< names of the arrays, in the order of those columns
 
-/// The arrays beside `area` that the set has, in the order of the columns in CSV.
+/// The arrays of the set other than `area`, in the order of the columns in CSV.
 std::vector<SampleArray> sampleArrays(const SampleSet& head);
 
-/// Gives each matrix so many columns; those that are there stay.
+/// Gives each matrix `samples` columns; existing ones stay.
 void resizeSamples(SampleSet& set, Eigen::Index samples);
 /// Samples first .. first + count - 1.
 SampleSet samplesBetween(const SampleSet& set, Eigen::Index first, Eigen::Index count);
 
-/// What stands at a key of the head.
+/// The value of a key of the head.
 using HeadValue = std::variant<std::string, std::uint64_t, double>;
 /// The comment lines of the head as keys and values: whole numbers, numbers, texts.
 std::vector<std::pair<std::string, HeadValue>> headValues(const SampleSet& head);
@@ -53,14 +53,14 @@ SampleSet headFrom(const std::filesystem::path& file, const std::map<std::string
 void requireSamples(const std::filesystem::path& file, const SampleSet& set, Eigen::Index first, Eigen::Index count,
                     Eigen::Index before, bool finite = false);
 
-/// Samples that a writer asks for block by block, as often as it wants.
+/// Samples that a writer requests block by block, as often as it needs.
 struct SampleRows {
   SampleSet head; ///< without samples
   Eigen::Index count = 0;
   std::function<SampleSet(Eigen::Index first, Eigen::Index count)> block;
 };
 
-/// How many samples are handled at once: a power of two, for about a megabyte in the largest array.
+/// How many samples are handled together: a power of two, for about a megabyte in the largest array.
 Eigen::Index samplesAtOnce(const SampleSet& head);
 
 } // namespace palp

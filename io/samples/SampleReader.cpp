@@ -1,6 +1,7 @@
 #include "io/samples/SampleReader.h"
 
 #include "io/SampleHead.h"
+#include "io/files/SystemError.h"
 #include "io/samples/Hdf5Samples.h"
 #include "io/samples/NpzSamples.h"
 #include "io/samples/SampleArrays.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 namespace palp {
@@ -26,7 +26,7 @@ public:
   explicit CsvSamples(const fs::path& path) : buffer_(kStreamBuffer, '\0'), lines_(stream_, path.string()) {
     stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     stream_.open(path, std::ios::binary);
-    if (!stream_) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
+    if (!stream_) cannotRead(path);
     head_ = readSampleHead(lines_);
   }
 

@@ -31,14 +31,14 @@ public:
 
   /// Without samples; its matrices have their rows.
   [[nodiscard]] virtual const SampleSet& head() const = 0;
-  /// Samples of the whole file, where the file says it.
+  /// Samples of the file, where the file has their number.
   [[nodiscard]] virtual std::optional<Eigen::Index> size() const = 0;
   /// Reads the next `count` samples, or as many as there are, into the columns of the set from `first` on, which are
   /// there; returns their number. Throws Cancelled after a request to stop.
   virtual Eigen::Index read(SampleSet& set, Eigen::Index first, Eigen::Index count, const std::stop_token& stop) = 0;
 };
 
-/// By what the file is, not by its name. The stop holds for the reader's whole life.
+/// By what the file is, not by its name. The stop holds for the reader's complete life.
 std::unique_ptr<SampleReader> openSamples(const std::filesystem::path& path, const std::stop_token& stop);
 
 } // namespace palp

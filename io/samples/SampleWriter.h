@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// A sample file of any format that is written block by block, whole or not at all; what is between has no name.
+/// A sample file of any format that is written block by block, completely or not at all; until then it has no name.
 class SampleWriter {
 public:
   /// By the ending of the name. Throws Error if the file exists and `force` is not given.

@@ -69,7 +69,7 @@ FourFours upper(EightPairs a, EightPairs b) {
   return (FourFours)__builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
 }
 
-/// 16 numbers of 8 bytes at once: bytes to pairs, pairs to fours, fours to numbers. A fifth of the time of one by one.
+/// 16 numbers of 8 bytes together: bytes to pairs, pairs to fours, fours to numbers. A fifth of the time of one by one.
 void unshuffleDoubles(const unsigned char* planes, std::size_t count, unsigned char* numbers) {
   constexpr std::size_t kAtOnce = sizeof(SixteenBytes), kWidth = sizeof(double);
   std::size_t i = 0;

@@ -15,7 +15,7 @@ namespace palp {
 /// low ones of a mantissa, are stored in it as they are: to compress them takes most of the time and gains nothing.
 std::vector<unsigned char> shuffledDeflate(std::span<const unsigned char> numbers, std::size_t width);
 
-/// The way back, with memory that is used again for the next chunk: for one thread.
+/// The inverse, with memory that is used again for the next chunk: for one thread.
 class ShuffledInflate {
 public:
   ShuffledInflate();

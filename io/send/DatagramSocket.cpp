@@ -1,5 +1,6 @@
 #include "io/send/DatagramSocket.h"
 
+#include "io/files/SystemError.h"
 #include "io/send/SingleHost.h"
 #include "model/base/Error.h"
 
@@ -7,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace palp {
 
@@ -41,8 +41,7 @@ DatagramSocket::DatagramSocket(const Receiver& receiver, bool toMany) {
     if (made >= 0) sockets_.push_back(made);
     if (made < 0) reason = errno;
   }
-  if (sockets_.empty())
-    throw Error(receiver.where + ": cannot be sent to: " + std::strerror(reason)); // NOLINT(concurrency-mt-unsafe)
+  if (sockets_.empty()) throw Error(receiver.where + ": cannot be sent to: " + systemMessage(reason));
 }
 
 DatagramSocket::~DatagramSocket() {

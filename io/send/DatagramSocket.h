@@ -10,7 +10,7 @@
 namespace palp {
 
 /// Datagrams to one receiver, by whichever of its addresses takes them: a name such as localhost has several, of which
-/// a program listens to one. A datagram goes at once or is lost.
+/// a program listens to one. A datagram goes immediately or is lost.
 class DatagramSocket {
 public:
   /// Throws Error where the receiver is not known or cannot be reached.

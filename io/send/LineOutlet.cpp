@@ -1,4 +1,5 @@
 #include "io/AtomicFile.h"
+#include "io/files/SystemError.h"
 #include "io/send/Outlets.h"
 #include "model/base/Error.h"
 
@@ -11,15 +12,14 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
-#include <cstring>
 
 namespace palp {
 
 namespace {
 
-/// Lines of CSV into a file, a FIFO or standard output. A line goes whole or not at all: what a full pipe did not take
-/// of it goes before the next one, and a file on a full disk ends with its last whole line. The names of the columns
-/// come first, again for each reader of a FIFO.
+/// Lines of CSV into a file, a FIFO or standard output. A line goes completely or not at all: what a full pipe did not
+/// take of it goes before the next one, and a file on a full disk ends with its last complete line. The names of the
+/// columns come first, again for each reader of a FIFO.
 class LineOutlet : public ForceOutlet {
 public:
   LineOutlet(std::string where, std::string file, bool force) : where_(std::move(where)), file_(std::move(file)) {
@@ -32,8 +32,7 @@ public:
     if (fifo_) return; // opened as soon as it is read
     requireFree(file_, force);
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
-    if (descriptor_ < 0)
-      throw Error(where_ + ": cannot be written: " + std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
+    if (descriptor_ < 0) throw Error(where_ + ": cannot be written: " + systemMessage());
   }
   ~LineOutlet() override {
     if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
@@ -91,9 +90,9 @@ private:
     return true;
   }
 
-  /// What a full disk took of the last line is taken away again.
+  /// The part of the last line that a full disk took is removed again.
   void fail(int reason) {
-    failure_ = where_ + ": can no longer be written: " + std::strerror(reason); // NOLINT(concurrency-mt-unsafe)
+    failure_ = where_ + ": can no longer be written: " + systemMessage(reason);
     struct stat about {};
     if (whole_ < written_ && ::fstat(descriptor_, &about) == 0 && S_ISREG(about.st_mode) &&
         ::ftruncate(descriptor_, about.st_size - (written_ - whole_)) != 0)
@@ -110,7 +109,7 @@ private:
 
   std::string where_, file_;
   std::string failure_;
-  off_t written_ = 0, whole_ = 0; ///< bytes so far, and of them those of whole lines
+  off_t written_ = 0, whole_ = 0; ///< bytes so far, and of them those of complete lines
   int descriptor_ = -1;
   bool fifo_ = false, begun_ = false, signalsBlocked_ = false;
   Eigen::Index forces_ = 0; ///< of the columns

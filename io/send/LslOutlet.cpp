@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kLongestName = 100;
 constexpr int kDoubles = 2;               ///< cft_double64
 constexpr double kIrregular = 0;          ///< LSL_IRREGULAR_RATE: frames may be missing
-constexpr int kChunkAsPushed = 0;         ///< each sample goes at once
+constexpr int kChunkAsPushed = 0;         ///< each sample goes immediately
 constexpr int kKeptHundredsOfFrames = 10; ///< of a receiver that is slow; what is more is lost
 
 /// The functions of liblsl that are used here, by its C interface (lsl_c.h, version 1.13 and newer), loaded at run

@@ -1,7 +1,6 @@
 #include "io/AtomicFile.h"
 
 #include "io/FilesTogether.h"
-#include "io/samples/FillBeside.h"
 #include "tests/io/Refusal.h"
 #include "tests/io/TemporaryFolder.h"
 
@@ -29,7 +28,7 @@ void killWhileWriting(const fs::path& file) {
   const pid_t child = ::fork();
   if (child == 0) {
     const AtomicFile writing(file, true);
-    put(writing.beside(), "half");
+    put(writing.temporary(), "half");
     ::raise(SIGKILL);
   }
   ::waitpid(child, nullptr, 0);
@@ -57,8 +56,8 @@ TEST(AtomicFile, DropsWhatWasNeverCommitted) {
   const TemporaryFolder folder;
   {
     const AtomicFile file(folder / "picture.png", false);
-    EXPECT_EQ(file.beside().extension(), ".png");
-    put(file.beside(), "half");
+    EXPECT_EQ(file.temporary().extension(), ".png");
+    put(file.temporary(), "half");
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
@@ -85,7 +84,7 @@ TEST(AtomicFile, FollowsALinkAndReplacesTheFileAtItsEnd) {
   fs::create_symlink("a.txt", folder / "home" / "b.txt"); // a link to a link
   EXPECT_NE(refusal([&] { writeFile(folder / "home" / "b.txt", "new", false); }).find("--force"), std::string::npos);
   const AtomicFile writing(folder / "home" / "b.txt", true);
-  EXPECT_TRUE(fs::equivalent(writing.beside().parent_path(), folder / "scratch")) << "no gigabytes at home";
+  EXPECT_TRUE(fs::equivalent(writing.temporary().parent_path(), folder / "scratch")) << "no gigabytes at home";
   writeFile(folder / "home" / "b.txt", "new", true);
   EXPECT_TRUE(fs::is_symlink(folder / "home" / "b.txt") && fs::is_symlink(folder / "home" / "a.txt"));
   EXPECT_EQ(readFile(folder / "scratch" / "a.txt"), "new");
@@ -116,7 +115,7 @@ TEST(AtomicFile, KeepsTheModeOfTheFileThatItReplaces) {
 TEST(AtomicFile, TakesATemporaryNameThatNobodyElseHas) {
   const TemporaryFolder folder;
   const AtomicFile one(folder / "a.txt", true), other(folder / "a.txt", true);
-  EXPECT_NE(one.beside(), other.beside());
+  EXPECT_NE(one.temporary(), other.temporary());
   const std::string longest(251, 'n');
   writeFile(folder / (longest + ".txt"), "new", false); // as long as the system takes
   EXPECT_EQ(readFile(folder / (longest + ".txt")), "new");
@@ -175,16 +174,12 @@ TEST(FilesTogether, NameTheFileThatWasAskedFor) {
   EXPECT_EQ(sentence, (folder / "a.txt").string() + ": is wrong");
 }
 
-TEST(FillBeside, NamesTheFileThatWasAskedFor) {
+TEST(AtomicFile, NamesTheFinalFileInErrorsOfItsWriter) {
   const TemporaryFolder folder;
-  const AtomicFile file(folder / "a.txt", false);
-  EXPECT_EQ(refusal([&] {
-              fillBeside(file, folder / "a.txt",
-                         [](const fs::path& beside) { throw Error(beside.string() + ": is wrong"); });
-            }),
+  AtomicFile file(folder / "a.txt", false);
+  EXPECT_EQ(refusal([&] { file.fill([](const fs::path& path) { throw Error(path.string() + ": is wrong"); }); }),
             (folder / "a.txt").string() + ": is wrong");
-  EXPECT_EQ(refusal([&] { fillBeside(file, folder / "a.txt", [](const auto&) { throw Error("all is wrong"); }); }),
-            "all is wrong");
+  EXPECT_EQ(refusal([&] { file.fill([](const auto&) { throw Error("all is wrong"); }); }), "all is wrong");
 }
 
 TEST(AtomicFile, SaysThatTheDiskIsFull) {

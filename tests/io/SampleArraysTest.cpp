@@ -75,7 +75,7 @@ TEST_P(SampleArrays, KeepTwoTouchesAtOnceForWhoAsks) {
   const SampleSet set = randomPairs(40, 6);
   saveSamples(file("two"), set, false);
   expectSame(loadSamples(file("two"), {}, true), set);
-  expectIn(sentenceOf(file("two")), {"got 2 at once", "expected 1"});
+  expectIn(sentenceOf(file("two")), {"got 2 together", "expected 1"});
   SampleSet wrong = set;
   wrong.secondTouch(kTouchShape, 2) = 0.5;
   saveSamples(file("wrong"), wrong, false);
@@ -148,7 +148,7 @@ TEST_P(SampleArrays, MergeOfShardsOfAllFormatsIsTheBytesOfOneRun) {
   EXPECT_TRUE(readFile(folder / "merged.csv") == readFile(folder / "whole.csv"));
 
   expectIn(refusal([&] { mergeSampleFiles({parts[0], parts[1]}, file("x"), false); }), {"missing"});
-  expectIn(refusal([&] { mergeSampleFiles({parts[1], parts[2]}, file("x"), false); }), {"whole request has 20"});
+  expectIn(refusal([&] { mergeSampleFiles({parts[1], parts[2]}, file("x"), false); }), {"complete request has 20"});
   std::size_t left = 0;
   for ([[maybe_unused]] const auto& each : fs::directory_iterator(folder.path())) ++left;
   EXPECT_EQ(left, 7U); // two whole, three parts, two merged

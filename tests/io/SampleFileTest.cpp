@@ -27,7 +27,7 @@ TEST(SampleFile, OfTwoTouchesAtOnceIsForWhoAsks) {
   expectSame(loadSamples(folder / "a.csv", {}, true), set);
   EXPECT_NE(sampleFileHead(set).find(",fz_N,shape_2,size_2_mm,friction_2,x_2_mm,y_2_mm,fx_2_N,fy_2_N,fz_2_N,u_r0_e0"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { loadSamples(folder / "a.csv"); }).find("got 2 at once"), std::string::npos);
+  EXPECT_NE(refusal([&] { loadSamples(folder / "a.csv"); }).find("got 2 together"), std::string::npos);
 }
 
 TEST(SampleFile, LeavesOutWhatNobodyKnows) {
@@ -170,7 +170,7 @@ TEST(SampleFile, MergeOfShardsInAnyOrderIsTheBytesOfOneRun) {
             std::string::npos);
   EXPECT_NE(refusal([&] {
               mergeSampleFiles({parts[1], parts[2]}, folder / "x", false);
-            }).find("whole request has 20"),
+            }).find("complete request has 20"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "x"));
 }

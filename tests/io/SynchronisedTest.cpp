@@ -33,8 +33,8 @@ namespace {
 TEST(AtomicFile, IsSynchronisedBeforeItHasItsNameAndItsFolderAfterwards) {
   const TemporaryFolder folder;
   AtomicFile file(folder / "a.txt", false);
-  put(file.beside(), "new");
-  const std::string temporary = file.beside().filename().string();
+  put(file.temporary(), "new");
+  const std::string temporary = file.temporary().filename().string();
   steps.clear();
   watched = true;
   file.commit();

@@ -76,7 +76,6 @@ Exit run(ReportArguments& arguments, Session& session) {
   printMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
   request.threads = session.threads;
   request.command = commandLine(arguments);
-  request.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
 
   ProgressBar bar("report " + arguments.kind, 1000);
   const ReportOutcome outcome = runReport(

@@ -323,7 +323,8 @@ void LiveCalibration::forgetFit() {
 /// Those that are here now are the project's.
 void LiveCalibration::tellFrames() {
   const SampleSet& samples = frames_.samples();
-  shown_ = samples.size() == 0 ? nullptr : std::make_shared<const BoardFrames>(BoardFrames{samples, frames_.said_N()});
+  shown_ =
+      samples.size() == 0 ? nullptr : std::make_shared<const BoardFrames>(BoardFrames{samples, frames_.predicted_N()});
   emit framesEdited();
 }
 
@@ -348,8 +349,8 @@ void LiveCalibration::displayFrames() {
     QStringList load, said;
     for (int d = 0; d < 3; ++d) {
       load << QString::number(samples.forces_N(d, row), 'g', 4);
-      const double said_N = frames_.said_N()(d, row);
-      if (!std::isnan(said_N)) said << QString::number(std::round(1e3 * said_N) / 1e3 + 0.0, 'f', 3);
+      const double predicted_N = frames_.predicted_N()(d, row);
+      if (!std::isnan(predicted_N)) said << QString::number(std::round(1e3 * predicted_N) / 1e3 + 0.0, 'f', 3);
     }
     table_->setItem(row, 1, new QTableWidgetItem(load.join(", ")));
     table_->setItem(row, 2, new QTableWidgetItem(said.join(", ")));

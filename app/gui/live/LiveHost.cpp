@@ -102,7 +102,7 @@ bool LiveHost::simulatesOwnDesign() const {
 }
 
 std::optional<SimulatedTouch::Truth> LiveHost::trueTouch(const BoardFrame& at) const {
-  return simulated() && running_ && running_->hasTouches() ? hand_->told(at.time_s) : std::nullopt;
+  return simulated() && running_ && running_->hasTouches() ? hand_->at(at.time_s) : std::nullopt;
 }
 
 /// The simulated board and the network that was trained on it go with the project's design.

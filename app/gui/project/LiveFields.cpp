@@ -3,7 +3,7 @@
 #include "app/gui/project/live/BoardCalibration.h"
 #include "io/DecoderFile.h"
 #include "io/ForceOutlet.h"
-#include "io/SampleText.h"
+#include "io/SampleFile.h"
 #include "model/base/Error.h"
 
 #include <limits>

@@ -35,6 +35,7 @@ std::vector<ReportKind> allKinds() {
                    "each result over each parameter. A cancelled study can be continued."),
        {{"all designs", 1, 60}}}};
   for (const ReportComputation& report : reportComputations()) {
+    if (report.name == "scenes") continue; // a check of the program itself
     QString title = QString::fromStdString(report.name), what = QString::fromStdString(report.what);
     for (QString* text : {&title, &what})
       if (!text->isEmpty()) text->front() = text->front().toUpper();
@@ -57,7 +58,7 @@ QString runName(const ReportKind& kind) {
 }
 
 bool drawsSamples(const ReportKind& kind) {
-  static const QStringList drawing{"noise", "networks", "error-time", "scenes", "layout"};
+  static const QStringList drawing{"noise", "networks", "error-time", "layout"};
   return kind.arguments.front() == "report" && drawing.contains(kind.arguments.back());
 }
 

@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFewSamples = 32, kSomeSamples = 96;            // one batch of the solver, and three
-constexpr double kMostMeasured_s = 24 * 3600, kMostAsked_s = 60; // Slurm's commands give up by themselves before
-constexpr const char* kSlurmNumbers = "slurm.txt";               // of arrays, and with this mark of merges
+constexpr double kFewSamples = 32, kSomeSamples = 96;              // one batch of the solver, and three
+constexpr double kMostMeasured_s = 24 * 3600, kMostQueried_s = 60; // Slurm's commands give up on their own before
+constexpr const char* kSlurmNumbers = "slurm.txt";                 // of arrays, and with this mark of merges
 constexpr const char* kMergeMark = "merge ";
 constexpr const char* kLatin1 = "latin-1"; // of a job.json with names that are not UTF-8: a letter a byte
 
@@ -68,7 +68,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 /// A command of Slurm's.
 ChildRun slurm(const ClusterJob& job, const std::string& line, const std::stop_token& stop) {
-  return shell(job, line, kMostAsked_s, stop);
+  return shell(job, line, kMostQueried_s, stop);
 }
 
 void requireSbatch(const ClusterJob& job) {
@@ -89,7 +89,7 @@ std::optional<int> largestArray(const ClusterJob& job, const std::stop_token& st
   return {};
 }
 
-/// The text where every string of it is UTF-8, as JSON wants it.
+/// The text where every string of it is UTF-8, as JSON requires.
 std::optional<std::string> asUtf8(const Json& json) {
   try {
     return json.dump(1);

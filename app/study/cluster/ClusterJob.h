@@ -43,7 +43,7 @@ void writeJob(const ClusterJob& job);
 /// The job of a folder. Throws Error.
 ClusterJob readJob(const std::filesystem::path& folder);
 
-/// Where a shard stands. Running and Waiting come from Slurm's squeue. Unknown: it does not answer, and the shard may
+/// State of a shard. Running and Waiting come from Slurm's squeue. Unknown: it does not answer, and the shard may
 /// be in the queue.
 enum class ShardState { Unknown, Missing, Waiting, Running, Failed, Done };
 struct ClusterStatus {

@@ -21,7 +21,7 @@ std::string asTime(double seconds) {
   return std::to_string(minutes / 60) + ":" + rest + ":00";
 }
 
-/// A file of messages in a line of #SBATCH: in quotes, and % doubled, which stands for a number there.
+/// A file of messages in a line of #SBATCH: in quotes, and % doubled, which means a number there.
 std::string logFile(const std::filesystem::path& folder, const std::string& pattern) {
   std::string result = "\"";
   for (const char c : folder.string() + "/") {
@@ -73,7 +73,7 @@ std::string shardScript(const ClusterJob& job) {
          "exit $status\n";
 }
 
-/// The names of the shards are short, as all of them stand in one command.
+/// The names of the shards are short, as all of them are in one command.
 std::string mergeScript(const ClusterJob& job) {
   const bool study = job.kind == "study";
   const std::string command = study ? commandOf(job) + " -o " + shellWord(job.output.string())

@@ -4,7 +4,7 @@
 
 namespace palp {
 
-/// A word for the shell, whatever stands in it.
+/// Quotes a word for the shell, whatever its characters.
 std::string shellWord(const std::string& word);
 
 /// palp with the job's arguments, but for output and shard, for the shell.

@@ -32,9 +32,9 @@ constexpr double kPriorVariance = 1e3;
 
 using Correction = Eigen::MatrixXd; ///< rows: gains of the forces (or of x and y of a place), offset [range]
 
-/// Forces over their range, or places, so that one prior fits all; one column a sample.
+/// Forces over their range, or places, so that one prior fits all; one column per sample.
 struct Scaled {
-  Eigen::MatrixXd said, truth;
+  Eigen::MatrixXd predicted, truth;
 };
 
 Correction start(Eigen::Index outputs) {
@@ -43,26 +43,26 @@ Correction start(Eigen::Index outputs) {
   return correction;
 }
 
-Eigen::VectorXd regressors(const Eigen::VectorXd& said) {
-  Eigen::VectorXd all(said.size() + 1);
-  all << said, 1;
+Eigen::VectorXd regressors(const Eigen::VectorXd& predicted) {
+  Eigen::VectorXd all(predicted.size() + 1);
+  all << predicted, 1;
   return all;
 }
 
 /// The correction from all samples but `left`.
 Correction fit(const Scaled& samples, Eigen::Index left) {
-  RecursiveLeastSquares estimate(start(samples.said.rows()), kPriorVariance);
-  for (Eigen::Index i = 0; i < samples.said.cols(); ++i)
-    if (i != left) estimate.update(regressors(samples.said.col(i)), samples.truth.col(i));
+  RecursiveLeastSquares estimate(start(samples.predicted.rows()), kPriorVariance);
+  for (Eigen::Index i = 0; i < samples.predicted.cols(); ++i)
+    if (i != left) estimate.update(regressors(samples.predicted.col(i)), samples.truth.col(i));
   return estimate.weights();
 }
 
 /// Each sample's error [range] after a fit without it; the work grows with the square of the frames.
 Eigen::MatrixXd unseenErrors(const Scaled& samples, const std::stop_token& stop) {
-  Eigen::MatrixXd errors(samples.said.rows(), samples.said.cols());
+  Eigen::MatrixXd errors(samples.predicted.rows(), samples.predicted.cols());
   for (Eigen::Index i = 0; i < errors.cols(); ++i) {
     throwIfStopped(stop);
-    errors.col(i) = fit(samples, i).transpose() * regressors(samples.said.col(i)) - samples.truth.col(i);
+    errors.col(i) = fit(samples, i).transpose() * regressors(samples.predicted.col(i)) - samples.truth.col(i);
   }
   return errors;
 }
@@ -112,7 +112,7 @@ void apply(RbfNetwork& network, const OutputCorrection& affine) {
   network.bias = affine.gains * network.bias + affine.offset;
 }
 
-/// After the correction that is there.
+/// After the existing correction.
 void apply(std::optional<OutputCorrection>& there, const OutputCorrection& affine) {
   if (!there) {
     there = affine;
@@ -184,11 +184,12 @@ std::optional<double> modelMismatch(const Decoder& decoder, const SampleSet& fra
 /// Components of which both labels and readings are more than rest, and of opposite signs in nearly all frames.
 std::string opposedComponents(const Scaled& frames) {
   std::string components;
-  const double rest = kLoaded * std::sqrt(static_cast<double>(frames.said.cols()));
+  const double rest = kLoaded * std::sqrt(static_cast<double>(frames.predicted.cols()));
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double said = frames.said.row(axis).norm(), truth = frames.truth.row(axis).norm();
-    if (std::min(said, truth) < rest) continue;
-    if (frames.said.row(axis).dot(frames.truth.row(axis)) < kOpposed * said * truth) components += "xyz"[axis];
+    const double predicted = frames.predicted.row(axis).norm(), truth = frames.truth.row(axis).norm();
+    if (std::min(predicted, truth) < rest) continue;
+    if (frames.predicted.row(axis).dot(frames.truth.row(axis)) < kOpposed * predicted * truth)
+      components += "xyz"[axis];
   }
   return components;
 }
@@ -218,15 +219,16 @@ namespace {
 
 /// The correction of the places; none where the network or the frames have none.
 std::optional<OutputCorrection> refinePlaces(const Decoder& decoder, const SampleSet& frames,
-                                             const Eigen::MatrixXd& said_mm, CalibrationReport& report,
+                                             const Eigen::MatrixXd& predicted_mm, CalibrationReport& report,
                                              const std::stop_token& stop) {
   if (!decoder.place || !frames.hasPlaces()) return {};
   const Eigen::VectorXd range_mm = decoder.place->high_mm - decoder.place->low_mm;
   if (!(range_mm.minCoeff() > 0)) return {}; // trained along a line
   const Eigen::MatrixXd truth_mm = frames.touchedPlaces_mm();
-  const Scaled scaled{range_mm.cwiseInverse().asDiagonal() * said_mm, range_mm.cwiseInverse().asDiagonal() * truth_mm};
+  const Scaled scaled{range_mm.cwiseInverse().asDiagonal() * predicted_mm,
+                      range_mm.cwiseInverse().asDiagonal() * truth_mm};
   PlaceCalibration place;
-  place.rmseBefore_mm = rms(said_mm - truth_mm);
+  place.rmseBefore_mm = rms(predicted_mm - truth_mm);
   place.rmseAfter_mm = rms(range_mm.asDiagonal() * unseenErrors(scaled, stop));
   place.improved = place.rmseAfter_mm.norm() < place.rmseBefore_mm.norm();
   report.place = place;
@@ -239,11 +241,11 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   requireUsable(decoder, frames);
   PredictOptions forcesAlone;
   forcesAlone.standardDeviation = forcesAlone.area = false;
-  const Prediction said = predict(decoder, inputsOf(frames, decoder.input), forcesAlone);
+  const Prediction predicted = predict(decoder, inputsOf(frames, decoder.input), forcesAlone);
   const Eigen::Vector3d range_N = decoder.high_N - decoder.low_N;
-  // A force that never varied in training is no part of the fit's scale.
+  // A force that never varied in training has no part in the fit's scale.
   const Eigen::Vector3d scale_N = (range_N.array() > 0).select(range_N, range_N.maxCoeff());
-  const Scaled scaled{scale_N.cwiseInverse().asDiagonal() * said.forces_N,
+  const Scaled scaled{scale_N.cwiseInverse().asDiagonal() * predicted.forces_N,
                       scale_N.cwiseInverse().asDiagonal() * frames.forces_N};
 
   Calibration result{decoder, {}};
@@ -257,13 +259,13 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
       (range_N.array() > 0).select(100 * (report.highest_N - report.lowest_N).cwiseQuotient(scale_N), 100.);
 
   const Eigen::MatrixXd unseen_N = scale_N.asDiagonal() * unseenErrors(scaled, stop);
-  report.rmseBefore_N = rms(said.forces_N - frames.forces_N);
+  report.rmseBefore_N = rms(predicted.forces_N - frames.forces_N);
   report.rmseAfter_N = rms(unseen_N);
   report.rmseAfter_percentOfRange = 100 * report.rmseAfter_N.cwiseQuotient(scale_N);
   report.worstError_N = unseen_N.colwise().norm().maxCoeff(&report.worstSample);
   report.improved =
       report.rmseAfter_N.cwiseQuotient(scale_N).norm() < report.rmseBefore_N.cwiseQuotient(scale_N).norm();
-  const std::optional<OutputCorrection> places = refinePlaces(decoder, frames, said.places_mm, report, stop);
+  const std::optional<OutputCorrection> places = refinePlaces(decoder, frames, predicted.places_mm, report, stop);
 
   report.modelMismatch = modelMismatch(decoder, frames);
   report.opposed = opposedComponents(scaled);
@@ -308,10 +310,10 @@ FrameAverage::FrameAverage(const Decoder& decoder, const SensorDesign& design, c
 }
 
 void FrameAverage::add(const DecodedForces& forces) {
-  if (!forces.valid || forces.missingReadings > 0) return; // a label wants all readings
+  if (!forces.valid || forces.missingReadings > 0) return; // a label needs all readings
   sum_ += forces.resistances_ohm;
   ++count_;
-  if (forces.forces_N.cols() == 1) said_N_.push_back(forces.forces_N.col(0));
+  if (forces.forces_N.cols() == 1) predicted_N_.push_back(forces.forces_N.col(0));
   const bool sure = forces.area && forces.areaConfidence > kSure && !forces.shown.empty() && forces.shown.front();
   if (sure) ++seenOn_[*forces.area];
 }
@@ -324,27 +326,27 @@ std::string FrameAverage::onAnotherArea() const {
   return {};
 }
 
-Eigen::Vector3d FrameAverage::said_N() const {
+Eigen::Vector3d FrameAverage::predicted_N() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& said : said_N_) sum += said;
-  return sum / static_cast<double>(said_N_.size()); // NaN where there is none
+  for (const Eigen::Vector3d& predicted : predicted_N_) sum += predicted;
+  return sum / static_cast<double>(predicted_N_.size()); // NaN where there is none
 }
 
 /// Noise jumps from frame to frame, a load that moves does not: its scatter is more than that of neighbours.
 std::string FrameAverage::moved() const {
-  if (said_N_.size() < kFewestToJudge) return {};
-  const Eigen::Vector3d mean = said_N();
+  if (predicted_N_.size() < kFewestToJudge) return {};
+  const Eigen::Vector3d mean = predicted_N();
   Eigen::Array3d scatter = Eigen::Array3d::Zero(), neighbours = Eigen::Array3d::Zero();
-  for (std::size_t i = 0; i < said_N_.size(); ++i) {
-    scatter += (said_N_[i] - mean).array().square();
-    if (i > 0) neighbours += (said_N_[i] - said_N_[i - 1]).array().square() / 2;
+  for (std::size_t i = 0; i < predicted_N_.size(); ++i) {
+    scatter += (predicted_N_[i] - mean).array().square();
+    if (i > 0) neighbours += (predicted_N_[i] - predicted_N_[i - 1]).array().square() / 2;
   }
-  const auto count = static_cast<double>(said_N_.size());
+  const auto count = static_cast<double>(predicted_N_.size());
   const Eigen::Array3d deviation = (scatter / (count - 1)).sqrt(), noise = (neighbours / (count - 1)).sqrt();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (deviation(axis) <= std::max(kMovedNoise * noise(axis), kMovedRange * range_N_(axis))) continue;
     const auto [low, high] =
-        std::minmax_element(said_N_.begin(), said_N_.end(),
+        std::minmax_element(predicted_N_.begin(), predicted_N_.end(),
                             [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a(axis) < b(axis); });
     return std::string("F") + "xyz"[axis] + " lay between " + withDigits((*low)(axis), 3) + " and " +
            withDigits((*high)(axis), 3) + " N";

@@ -68,11 +68,11 @@ public:
   /// Takes the frame where it is valid.
   void add(const DecodedForces& forces);
   [[nodiscard]] int count() const { return count_; }
-  /// Mean of what the network said of the frames [N]; NaN before the first.
-  [[nodiscard]] Eigen::Vector3d said_N() const;
-  /// The load was not the same in all of them: in words, which force went from where to where; empty where it was.
+  /// Mean of the forces predicted from the frames [N]; NaN before the first.
+  [[nodiscard]] Eigen::Vector3d predicted_N() const;
+  /// Which force changed between the frames, from where to where, as text; empty if the load was constant.
   [[nodiscard]] std::string moved() const;
-  /// The network saw the load on another area than the label says: in words; empty where it did not, or is no judge.
+  /// That the network predicts the load on another area than the label has, as text; empty if not, or if it cannot.
   [[nodiscard]] std::string onAnotherArea() const;
   /// The mean so far.
   [[nodiscard]] SampleSet sample() const;
@@ -81,7 +81,7 @@ private:
   SampleSet set_;
   Eigen::MatrixXd sum_;
   Eigen::Vector3d range_N_; ///< of the network
-  std::vector<Eigen::Vector3d> said_N_;
+  std::vector<Eigen::Vector3d> predicted_N_;
   std::map<int, int> seenOn_; ///< frames that the network is sure of, by area
   int count_ = 0;
 };

@@ -18,7 +18,7 @@
 namespace palp {
 namespace {
 
-constexpr double kKnown = 0.6; ///< of the time that a decoder of touches needs: what the design says of them
+constexpr double kKnown = 0.6; ///< of the training time of a decoder of touches: touches computed from the design
 
 /// The touched area of each sample as classes without gaps.
 struct Classes {
@@ -74,7 +74,7 @@ private:
   const std::stop_token& stop_;
   const std::function<void(double, const std::string&)>& progress_;
   Eigen::MatrixXd inputs_;
-  Eigen::MatrixXd targets_; ///< forces, and below them the place where it is asked for
+  Eigen::MatrixXd targets_; ///< forces, and below them the position if requested
   Decoder decoder_;
 };
 
@@ -129,7 +129,7 @@ void DecoderTraining::describe() {
 void DecoderTraining::addPlace() {
   if (!samples_.hasPlaces())
     throw Error("target: force+place needs samples of touches (Network scene, palp sample --touch) or with measured "
-                "positions (palp import); these load whole areas");
+                "positions (palp import); these load complete areas");
   if (!traits(options_.decoder).givesPosition)
     throw Error("target: " + name(options_.decoder) + " predicts the force only; force+place takes " +
                 namesOfDecodersWith(&DecoderTraits::givesPosition));
@@ -284,10 +284,10 @@ void DecoderTraining::fitLikelihood() {
 void DecoderTraining::fitTouches() {
   if (!decoder_.place)
     throw Error("target: got force, expected force+place: the touch decoder learns force and position together");
-  // Size and friction are found beside them: where they vary, what is known of force and place depends on them.
+  // Size and friction are estimated too: where they vary, the deviations of force and position depend on them.
   Eigen::MatrixXd parameters = Eigen::MatrixXd::Zero(targets_.rows() + 2, targets_.cols());
   parameters.topRows(targets_.rows()) = targets_;
-  if (samples_.hasTouches()) // nobody tells them of the indenter of a rig, which stays the same
+  if (samples_.hasTouches()) // unknown for the indenter of a rig, which stays the same
     parameters.bottomRows<2>() << samples_.touches.row(kTouchSize_mm), samples_.touches.row(kTouchFriction);
   Eigen::VectorXi groups(parameters.rows());
   groups << 1, 1, 1, 0, 0, 2, 2;

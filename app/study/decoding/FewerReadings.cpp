@@ -13,7 +13,7 @@ namespace palp {
 namespace {
 
 constexpr double kRangePrecision = 3;    // 1 / variance of a cause that is uniform over [-1, 1]
-constexpr double kLeastKnown = 1e-9;     // of a component that no present reading tells of
+constexpr double kLeastKnown = 1e-9;     // of a component that no present reading depends on
 constexpr double kLeastVariance = 1e-12; // of a component, where there is no noise
 constexpr int kRefinements = 3;
 

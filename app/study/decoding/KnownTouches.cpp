@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kLeastPressesInRange = 6e6;
 
-/// Where the decoder's inputs stand among the readings, row-wires first.
+/// Indices of the decoder's inputs among the readings, row-wires first.
 std::vector<Eigen::Index> readingsOf(const DecoderInput& input) {
   std::vector<Eigen::Index> places;
   for (const int row : input.rows)
@@ -111,7 +111,7 @@ std::vector<KernelMirror> mirrorsOfTouches(const SensorDesign& design, const Eig
     const std::optional<DesignMirror> mirror = mirrorOf(design, axis);
     if (!mirror) continue;
     KernelMirror found;
-    found.about = {{axis, 0.}, {3 + axis, design.block_mm(axis) / 2}}; // force and place
+    found.about = {{axis, 0.}, {3 + axis, design.block_mm(axis) / 2}}; // force and position
     const bool reflected = std::all_of(found.about.begin(), found.about.end(), [&](const auto& parameter) {
       const auto values = parameters.row(parameter.first);
       return values.minCoeff() < values.maxCoeff() || values(0) == parameter.second;

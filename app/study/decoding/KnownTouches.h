@@ -13,11 +13,11 @@
 
 namespace palp {
 
-/// Readings [ohm] of touches as the design's influence surfaces at rest have them (TouchMap says what that leaves out):
-/// what is known of a decoder's inputs before any sample. Columns are touches: Fx, Fy, Fz [N], x, y, size [mm],
+/// Readings [ohm] of touches as the design's influence surfaces at rest have them (TouchMap documents what that leaves
+/// out): what is known of a decoder's inputs before any sample. Columns are touches: Fx, Fy, Fz [N], x, y, size [mm],
 /// friction. Shape and rim are those of the samples. Throws DesignError where the shape has no place along x and y or
 /// the design a pressure law, Error where the samples are of another design, and Cancelled.
-/// `progress` is told each step of it before it runs: the share of the time that is done, and what comes.
+/// `progress` is called before each step with the share of the time that has passed and the step's name.
 using KnownReadings = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& parameters)>;
 KnownReadings knownReadings(const SensorDesign& design, const SampleSet& samples, const DecoderInput& input,
                             int threads, const std::stop_token& stop,

@@ -10,7 +10,7 @@ namespace palp {
 
 /// Decodes where some readings are missing: a decoder by inversion inverts its model for the others, any other decoder
 /// gets the missing ones from its model of the areas under the most likely touch of the others. The deviations are
-/// wider by what the missing readings would have told. Keeps what many calls share.
+/// wider by the information of the missing readings. Keeps what many calls share.
 class PartialPredictor {
 public:
   /// The decoder must outlive it; whyNotFewer(decoder) is empty.

@@ -195,7 +195,7 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
   }
 }
 
-/// Mean of the squares of so many normal numbers that 99 of 100 such means stay below (Wilson and Hilferty 1931).
+/// The 99th percentile of the mean of the squares of `count` normal numbers (Wilson and Hilferty 1931).
 double commonMeanSquare(Eigen::Index count) {
   constexpr double quantile = 2.326;
   const double spread = 2 / (9 * static_cast<double>(count));
@@ -209,7 +209,7 @@ void decodeTouches(const Decoder& decoder, const KernelForwardModel& model, cons
                    const PredictOptions& options, Prediction& result) {
   const double seen = (1 + noiseBeyond(decoder, options)) * commonMeanSquare(model.components());
   const Eigen::Index outputs = decoder.outputs() + 2;
-  const bool sized = inversion.finds(outputs); // after force and place: size, friction
+  const bool sized = inversion.finds(outputs); // after force and position: size, friction
   if (sized) result.indenterSize_mm.resize(inputs.cols());
   result.forces_N.resize(outputs, inputs.cols());
   result.standardDeviation_N.resize(outputs, inputs.cols());
@@ -408,11 +408,11 @@ std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& s
     differences.push_back("the samples are of another design (" + samples.origin.designFingerprint +
                           ") than the decoder (" + decoder.designFingerprint + "): its forces are meaningless there");
   if (samples.hasTouches() && decoder.touches.empty() && !decoder.place)
-    differences.emplace_back("the decoder was trained on forces that are spread over whole areas, the samples are "
+    differences.emplace_back("the decoder was trained on forces that are spread over complete areas, the samples are "
                              "touches by an indenter: its forces may be wrong by their own size; train on touches");
   if (!samples.hasPlaces() && !decoder.touches.empty())
     differences.push_back("the decoder was trained on touches (" + decoder.touches +
-                          "), the samples load whole areas: its forces may be wrong by their own size");
+                          "), the samples load complete areas: its forces may be wrong by their own size");
   if (std::string constant = constantInputs(decoder.input, inputsOf(samples, decoder.input)); !constant.empty())
     differences.push_back(std::move(constant));
   return differences;

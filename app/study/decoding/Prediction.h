@@ -14,7 +14,7 @@
 namespace palp {
 
 /// Inputs x samples: the rows' displacements [mm] or resistances [ohm] out of a set. Throws Error where the set has
-/// other sizes than the input wants.
+/// other sizes than the input needs.
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
 /// What a decoder's stage makes of the inputs of a set: its transform and its memory of what was before, run by run.
@@ -22,17 +22,17 @@ Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 Eigen::MatrixXd stagedInputs(const Decoder& decoder, const SampleSet& samples, const Eigen::MatrixXd& inputs);
 
 /// What presses, as far as the readings tell it: nothing that is seen above the noise, one touch as they were learned,
-/// or neither of these: two at once, another body.
+/// or neither of these: two together, another body.
 enum class Pressing { None, One, Other };
 const char* name(Pressing pressing); ///< none, one, other
 
-/// What a decoder says; one column a sample.
+/// Result of a decoder; one column per sample.
 struct Prediction {
   Eigen::MatrixXd forces_N;
-  Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not asked
+  Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not requested
   Eigen::MatrixXd places_mm;              ///< 2 x samples: of the touch; empty: the decoder gives none
-  Eigen::MatrixXd placeDeviation_mm;      ///< of each place; empty: not asked
-  Eigen::VectorXd indenterSize_mm;        ///< of the touch, found beside it; empty: the decoder does not
+  Eigen::MatrixXd placeDeviation_mm;      ///< of each position; empty: not requested
+  Eigen::VectorXd indenterSize_mm;        ///< of the touch, estimated with it; empty: the decoder does not
   std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
   Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability
@@ -77,7 +77,7 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
 
 /// What makes the samples another thing than the decoder was trained for: their design, touches in place of forces on
-/// whole areas. Sentences for people; none where nothing does.
+/// complete areas. Sentences for readers; empty if there is no difference.
 std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& samples);
 
 /// Throws Error where the network's read-out and this one are both known and are not the same; `whatIs`: "the board

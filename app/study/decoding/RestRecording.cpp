@@ -42,8 +42,8 @@ public:
 
   void finish(RestRecording& rest, const std::string& file) const {
     if (frames_ < kFewestFrames)
-      throw Error(file + ": " + std::to_string(frames_) + " whole frames; at least " + std::to_string(kFewestFrames) +
-                  " at rest are needed");
+      throw Error(file + ": " + std::to_string(frames_) + " complete frames; at least " +
+                  std::to_string(kFewestFrames) + " at rest are needed");
     const Eigen::ArrayXXd mean = sum_ / counts_.max(1);
     rest.resistances_ohm =
         (2 * counts_ > frames_).select(first_ohm_ * (1 + mean), std::numeric_limits<double>::quiet_NaN());

@@ -27,7 +27,7 @@ struct TrainOptions {
   DecoderKind decoder = DecoderKind::Rbf;
   DecoderTarget target = DecoderTarget::Force;
   std::optional<double> spread; ///< none: auto
-  std::optional<int> centers;   ///< none: as the mode says
+  std::optional<int> centers;   ///< none: default of the mode
   bool allCenters = false;      ///< one a sample, however many
   std::optional<CenterChoice> centerChoice;
   std::optional<LeastSquaresMethod> solver;

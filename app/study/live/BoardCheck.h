@@ -14,7 +14,7 @@ struct BoardCheckResult {
   std::string found;
 };
 
-/// Judges a board by what it says of itself and by what it sent in `seconds`. `descriptor` is empty where nobody knows
+/// Checks a board's own description and what it sent in `seconds`. `descriptor` is empty where it is not known
 /// it (a recording).
 std::vector<BoardCheckResult> checkBoard(const LiveStatus& status, double seconds,
                                          const std::vector<std::uint8_t>& descriptor);

@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// The boards that are plugged in, looked for in a thread of its own when the system says that some came or went.
+/// The boards that are plugged in, looked for in a thread of its own when the system reports that some came or went.
 class BoardWatch {
 public:
   explicit BoardWatch(BoardAccess access = {});

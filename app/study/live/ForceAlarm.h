@@ -33,11 +33,12 @@ public:
   void set(std::optional<ForceAlarm> alarm);
   /// The largest range of the forces: near a limit of 0 a share of it counts.
   void setRange(double range_N) { range_N_ = range_N; }
-  /// Takes the forces of a frame, 3 x areas: each one counts that is not 0, or all. Says what begins or is over.
+  /// Takes the forces of a frame, 3 x areas: each one counts that is not 0, or all. Returns text on what begins or is
+  /// over.
   std::optional<std::string> add(const Eigen::Ref<const Eigen::Matrix3Xd>& forces_N);
-  /// There are no forces: an alarm that lasts is over. Says so; nothing else.
+  /// There are no forces: an alarm that lasts is over. Returns text on that only.
   std::optional<std::string> lose();
-  /// In words with the present force, while it lasts; empty else.
+  /// As text with the present force, while it lasts; else empty.
   [[nodiscard]] const std::string& words() const { return words_; }
 
 private:

@@ -91,7 +91,7 @@ void ForceDecoder::setNoise(double noise) {
   if (predictor_ && std::abs(noise - noise_) <= kSameNoise * noise_) return;
   noise_ = noise;
   PredictOptions options;
-  // What is left in the mean of the tare's frames is in every frame since.
+  // The noise of the mean of the tare's frames is in every frame since.
   options.noise = std::min(tared_ ? noise * std::sqrt(1 + 1.0 / tareFrames_) : noise, kMostNoise);
   fewer_.reset();
   predictorOptions_ = options;
@@ -111,7 +111,7 @@ void ForceDecoder::setNoise(double noise) {
   restError_N_ = mean_N.reshaped(3, restError_N_.cols());
 }
 
-/// Without a tare nobody has said what the board's noise is.
+/// Without a tare the board's noise is unknown.
 void ForceDecoder::followNoise(const Eigen::VectorXd& raw_ohm) {
   meter_.add(raw_ohm);
   if (!tared_ && meter_.noise() > 0) setNoise(std::max(decoder_->noise, meter_.noise()));
@@ -283,7 +283,7 @@ void ForceDecoder::judge(const BoardFrame& frame, const Prediction& prediction, 
   input.outsideInputs = prediction.outsideTrainingRange[0];
   input.predictedNoise = predictedNoise_;
   input.noiseUncertainty = meter_.uncertainty();
-  // What is left in the mean of the tare's frames is in every frame since.
+  // The noise of the mean of the tare's frames is in every frame since.
   if (meter_.ready()) input.noise = meter_.noise() * (tared_ ? std::sqrt(1 + 1.0 / tareFrames_) : 1.0);
   input.time_s = frame.time_s;
   const Plausibility::Verdict verdict = plausibility_->judge(input);
@@ -312,15 +312,15 @@ void ForceDecoder::addRestError(DecodedForces& decoded) const {
       (decoded.standardDeviation_N.array().square() + (restError_N_ * share.asDiagonal()).array().square()).sqrt();
 }
 
-/// What a calibration left is an error of a force that is there: it hides none.
+/// The residual of a calibration is an error of an existing force: it hides none.
 Eigen::Matrix3Xd ForceDecoder::withoutCalibration_N(const DecodedForces& decoded) const {
   const Eigen::Array3Xd all = decoded.standardDeviation_N.array().square() - calibrationError_N_.array().square();
   return all.max(0).sqrt();
 }
 
-/// An arrow appears where a component stands out of the noise, and goes when all have sunk into it again.
+/// An arrow appears where a component exceeds the noise, and disappears when all are below it again.
 void ForceDecoder::threshold(DecodedForces& decoded) {
-  const bool known = tared_ || meter_.ready(); // else nothing is said of what stands out of the noise
+  const bool known = tared_ || meter_.ready(); // else the noise is unknown
   const Eigen::Matrix3Xd deviation_N = withoutCalibration_N(decoded);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);

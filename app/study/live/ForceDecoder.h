@@ -16,7 +16,7 @@ namespace palp {
 
 /// Forces of one frame of a board.
 struct DecodedForces {
-  bool valid = false;        ///< false: `reason` says why, and there are no forces
+  bool valid = false;        ///< false: for the `reason`, and there are no forces
   std::string reason;        ///< which wires are bad, or that the frame is incomplete
   int readings = 0;          ///< that the decoder takes
   int missingReadings = 0;   ///< of them; the force was found without, and its deviations are wider
@@ -25,10 +25,10 @@ struct DecodedForces {
   Eigen::Matrix3Xd standardDeviation_N;
   /// Of each, whether the decoder gives it: the others are 0 with a deviation of 0. Empty: all.
   Eigen::Array<bool, 3, Eigen::Dynamic> measured;
-  std::vector<bool> shown; ///< one a column: stands out of the noise
+  std::vector<bool> shown; ///< of the columns: exceeds the noise
   std::optional<int> area; ///< most likely touched, where the decoder determines it
   double areaConfidence = 0;
-  /// Of the touch on the top face and its deviations, where the decoder gives it and the force stands out of the noise.
+  /// Of the touch on the top face and its deviations, where the decoder gives it and the force exceeds the noise.
   std::optional<Eigen::Vector2d> place_mm, placeDeviation_mm;
   std::optional<double> indenterSize_mm; ///< of that touch, where the decoder finds it
   bool outsideTrainingRange = false;     ///< of the forces; of the readings where there is no forward model
@@ -72,7 +72,7 @@ public:
   [[nodiscard]] std::string tareProblem() const;
 
   /// What a sensor at rest reads as where all its readings have gone by this factor since [N]; 0 where rest is not
-  /// known, or where the network gives several forces at once.
+  /// known, or where the network gives several forces together.
   [[nodiscard]] Eigen::Vector3d drifted_N(double relative) const;
 
   /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the
@@ -103,7 +103,7 @@ private:
   PredictOptions predictorOptions_;
   std::unique_ptr<PartialPredictor> fewer_; ///< the same where readings are missing; made when first needed
   std::optional<MemoryStates> memory_;      ///< of a decoder with one
-  Eigen::Matrix3Xd restError_N_;            ///< what the decoder says of the design at rest: there the truth is zero
+  Eigen::Matrix3Xd restError_N_; ///< prediction of the decoder for the design at rest: there the truth is zero
   Eigen::Array<bool, 3, Eigen::Dynamic> measured_;
   Eigen::Matrix3Xd calibrationError_N_;
   NoiseMeter meter_;

@@ -14,10 +14,10 @@ namespace palp {
 
 namespace {
 
-constexpr double kSeenDeviations = 5;      // a load within so many of them may hide in the noise
+constexpr double kHiddenDeviations = 5;    // a load within that many of them may hide in the noise
 constexpr double kLeastShare = 0.1;        // of the label, or of what is read: less than any gain would make of it
 constexpr double kFarShare = 3;            // of one to the other: rarely is a sensor so far from its model
-constexpr double kMostOffset_range = 0.05; // that may stand at rest for calibration to take away
+constexpr double kMostOffset_range = 0.05; // that may exist at rest for calibration to remove
 
 template <class Matrix> Matrix withoutColumn(const Matrix& all, Eigen::Index column) {
   Matrix rest(all.rows(), all.cols() - 1);
@@ -40,7 +40,7 @@ std::string labelAgainstReading(const Eigen::Vector3d& label_N, const DecodedFor
   const Eigen::Index column = std::min<Eigen::Index>(area, reads.forces_N.cols() - 1);
   const Eigen::Vector3d read_N = reads.forces_N.col(column);
   const double deviation_N = reads.standardDeviation_N.col(column).maxCoeff();
-  const double hidden_N = kSeenDeviations * deviation_N;
+  const double hidden_N = kHiddenDeviations * deviation_N;
   const double offset_N = kMostOffset_range * (decoder.high_N - decoder.low_N).maxCoeff();
   const std::string both = "the label has " + inNewton(label_N) + ", but the network predicts " + inNewton(read_N);
   if (label_N.norm() > hidden_N && read_N.norm() < std::max(hidden_N, kLeastShare * label_N.norm()))
@@ -71,7 +71,7 @@ bool LabelledFrames::add(const DecodedForces& forces) {
   if (const std::string moved = done.moved(); !moved.empty())
     throw Error("the load moved while it was averaged (" + moved + "); hold it still and collect again");
   append(done.sample(), "the board");
-  said_N_.rightCols<1>() = done.said_N();
+  predicted_N_.rightCols<1>() = done.predicted_N();
   doubt_ = done.onAnotherArea();
   return true;
 }
@@ -81,19 +81,19 @@ void LabelledFrames::append(const SampleSet& frames, const std::string& from) {
     if (const std::string differs = differenceOfHeads(samples_, frames); !differs.empty())
       throw Error(from + ": differs from the frames already collected: " + differs);
   palp::append(samples_, frames);
-  const Eigen::Index before = said_N_.cols();
-  said_N_.conservativeResize(3, samples_.size());
-  said_N_.rightCols(samples_.size() - before).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Index before = predicted_N_.cols();
+  predicted_N_.conservativeResize(3, samples_.size());
+  predicted_N_.rightCols(samples_.size() - before).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void LabelledFrames::clear() {
   samples_ = {};
-  said_N_.resize(3, 0);
+  predicted_N_.resize(3, 0);
 }
 
-void LabelledFrames::replace(const SampleSet& samples, const Eigen::Matrix3Xd& said_N) {
+void LabelledFrames::replace(const SampleSet& samples, const Eigen::Matrix3Xd& predicted_N) {
   samples_ = samples;
-  said_N_ = said_N;
+  predicted_N_ = predicted_N;
 }
 
 void LabelledFrames::remove(Eigen::Index sample) {
@@ -105,7 +105,7 @@ void LabelledFrames::remove(Eigen::Index sample) {
   samples_.area = area;
   for (const auto part : kSampleParts)
     if ((samples_.*part).rows() > 0) samples_.*part = withoutColumn(samples_.*part, sample);
-  said_N_ = withoutColumn(said_N_, sample);
+  predicted_N_ = withoutColumn(predicted_N_, sample);
 }
 
 void LabelledFrames::load(const std::filesystem::path& path) {

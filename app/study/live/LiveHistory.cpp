@@ -1,6 +1,7 @@
 #include "app/study/live/LiveHistory.h"
 
 #include "io/AtomicFile.h"
+#include "io/CsvText.h"
 #include "model/base/Text.h"
 
 #include <cmath>
@@ -22,18 +23,12 @@ void writeNumbers(std::ostream& out, const Eigen::MatrixXd& values, Eigen::Index
   }
 }
 
-std::string inQuotes(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
-
 } // namespace
 
 void LiveHistory::add(std::shared_ptr<const LiveFrame> frame) {
   const bool jumped = !entries_.empty() && frame->jumps != entries_.back().frame->jumps;
   if (jumped) clear();
-  // Where a recording is taken up at another place, the mark that stands there began before it.
+  // Where a recording continues at another place, the mark there began before it.
   std::string markBefore = entries_.empty() ? std::string() : entries_.back().frame->mark;
   if (jumped && !frame->markFollowsJump) markBefore = frame->mark;
   const bool newMark = !frame->mark.empty() && frame->mark != markBefore;
@@ -94,12 +89,12 @@ void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history,
     if (live.frame.temperature_degC) out << text(*live.frame.temperature_degC);
     out << ',';
     if (live.forces.misfit) out << text(*live.forces.misfit);
-    out << ',' << inQuotes(live.mark == mark ? std::string() : live.mark);
+    out << ',' << quotedCsvField(live.mark == mark ? std::string() : live.mark);
     mark = live.mark;
     writeNumbers(out, live.forces.measuredAlone(live.forces.forces_N), forces);
     writeNumbers(out, live.forces.measuredAlone(live.forces.standardDeviation_N), forces);
     writeNumbers(out, live.change, readings);
-    out << ',' << inQuotes(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
+    out << ',' << quotedCsvField(live.forces.valid ? live.forces.doubt : live.forces.reason) << '\n';
   }
   writeFile(path, out.str(), true);
 }

@@ -37,7 +37,8 @@ private:
 
 /// The entries as CSV: time as in Entry (it never jumps back), the board's own clock, frame, forces with deviations,
 /// latency, lost reports, misfit, a mark at the frame it begins with, why there are no forces or why they are doubted,
-/// and the change of every reading. `head`: whole lines before all that. Throws Error where the file cannot be written.
+/// and the change of every reading. `head`: complete lines before all that. Throws Error where the file cannot be
+/// written.
 void writeLiveCsv(const std::filesystem::path& path, const LiveHistory& history, const std::string& head = {});
 
 } // namespace palp

@@ -46,7 +46,7 @@ LiveSession::LiveSession(LiveOptions options)
         }
       }) {}
 
-LiveSession::~LiveSession() = default; // the thread is asked to stop and joined first
+LiveSession::~LiveSession() = default; // the thread is stopped and joined first
 
 void LiveSession::run(const std::stop_token& stop) {
   const std::size_t most = options_.ringFrames;
@@ -92,7 +92,7 @@ void LiveSession::run(const std::stop_token& stop) {
     requests.clear();
     publish();
   }
-  worker.setWriter(nullptr); // what it says of the recording then is the last word
+  worker.setWriter(nullptr); // its report on the recording is final then
   publish();
 }
 

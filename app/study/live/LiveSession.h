@@ -19,8 +19,8 @@ namespace palp {
 class LiveWorker;
 
 enum class LiveState {
-  Searching, ///< no board; goes on by itself when one is plugged in
-  Refused,   ///< a board that may not or cannot be opened or used; `reason` says what to do
+  Searching, ///< no board; continues automatically when one is plugged in
+  Refused,   ///< a board that may not or cannot be opened or used; what to do is in `reason`
   Streaming,
   Stalled, ///< the board is there but nothing has come for 250 ms
   Paused,
@@ -35,7 +35,7 @@ inline constexpr const char* kAlarmOver = "alarm over";
 /// One frame with all that was made of it.
 struct LiveFrame {
   BoardFrame frame;
-  std::vector<std::string> faults; ///< bad wires, in words
+  std::vector<std::string> faults; ///< bad wires, as text
   DecodedForces forces;            ///< not valid without a network
   Eigen::MatrixXd change;          ///< R / R at rest - 1, row-wires x column-wires; NaN where a reading is not good
   double latency_s = 0;            ///< from the device's clock to the decoded force
@@ -45,7 +45,7 @@ struct LiveFrame {
   std::uint64_t jumps = 0;         ///< how often the recording was taken up at another place, at this frame
   std::string mark;                ///< the last event mark of the user or the recording
   bool past = false;               ///< from before the place of the recording that was gone to: for its curves alone
-  bool markFollowsJump = false;    ///< it stands at or behind the place where the recording was taken up last
+  bool markFollowsJump = false;    ///< it is at or after the place where the recording last continued
 };
 
 struct LatencySummary {
@@ -75,19 +75,19 @@ struct LiveStatus {
   double driftForce_N = 0;          ///< what the drift reads as
   bool tareSuggested = false;       ///< it is more than 1 % of the force range
   double driftRate_N_min = 0;       ///< how fast that changes
-  bool driftsOn = false;            ///< both: a tare of now would be wanted again within a minute
+  bool driftsOn = false;            ///< both: a tare now would be needed again within a minute
   double steadyRate_N_min = 0;      ///< below which a tare holds
   bool blind = false;               ///< the last half second gave no forces: no alarm can go off
   std::string restName;             ///< what LiveFrame::change counts from
   double noise = 0;                 ///< relative, of the readings
-  std::string alarm;                ///< the alarm that is on, in words
+  std::string alarm;                ///< the alarm that is on, as text
   std::string lastAlarm;            ///< the last one that went off; `alarms` counts them
   std::uint64_t alarms = 0;
   bool recording = false;
-  bool recordingWaits = false; ///< for the board, which is out; it goes on in the same file when it is back
+  bool recordingWaits = false; ///< for the board, which is out; continues in the same file when it is back
   std::uint64_t recordedReports = 0, recordingDropped = 0;
   std::string recordingFailure;
-  std::string lastEvent; ///< what the board said last, or what failed
+  std::string lastEvent; ///< last message of the board, or what failed
 };
 
 struct LiveOptions {
@@ -102,7 +102,7 @@ struct LiveOptions {
   /// The tare that is known of a board from before; may be empty, and give null.
   std::function<std::shared_ptr<const Tare>(const BoardInfo&)> tareOf;
   std::shared_ptr<ReplayControl> replay;
-  /// Gets each frame in the session's thread, before the ring: must return at once.
+  /// Gets each frame in the session's thread, before the ring: must return immediately.
   std::function<void(const std::shared_ptr<const LiveFrame>&)> alsoTo;
   std::size_t ringFrames = 2048; ///< kept for a reader that drains late; where there are more, the oldest are lost
   bool waitForReader = false;    ///< a recording waits for such a reader, so that each frame is seen
@@ -128,7 +128,7 @@ public:
   void tare(int frames);
   void clearTare();
   void setDecoder(std::optional<Decoder> decoder, std::optional<SensorDesign> design);
-  void pause(bool paused); ///< decoding and display; a recording goes on
+  void pause(bool paused); ///< decoding and display; a recording continues
   /// Nobody looks: nothing is read and no board is held open, but for a recording. The tare stays.
   void idle(bool idle);
   void configure(const BoardConfiguration& configuration);

@@ -32,7 +32,7 @@ struct BoardAccess {
 struct SimulatedBoardOptions {
   std::filesystem::path samples;           ///< solved samples that drive it; empty: those that ship with Palp
   std::shared_ptr<const SampleSet> solved; ///< in place of a file
-  std::shared_ptr<TouchHand> hand;         ///< null: the touch goes over the areas by itself
+  std::shared_ptr<TouchHand> hand;         ///< null: the touch moves over the areas automatically
   BoardDisturbance disturbance;
   BoardFaults faults;
   int rate_Hz = 1000;

@@ -58,7 +58,7 @@ void LiveWorker::rest() {
 void LiveWorker::guarded(const std::function<void()>& call) {
   try {
     call();
-  } catch (const BoardError& gone) { // the board went while it was asked something
+  } catch (const BoardError& gone) { // the board went during a command
     status_.lastEvent = gone.what(); // stays when the connection is made again
     disconnect(LiveState::Searching, gone.what());
   } catch (...) { // the last resort: whatever fails here must not end the program
@@ -161,7 +161,7 @@ void LiveWorker::read() {
   measureRates(now_s);
 }
 
-/// The recording goes on at another place: what lies between is no loss, and nothing of before belongs to what follows.
+/// The recording continues at another place: reports between are not lost, and earlier ones belong to other frames.
 void LiveWorker::jumped() {
   assembler_->restart();
   drift_.restart();
@@ -191,8 +191,8 @@ void LiveWorker::take(const RawReport& report) {
     return;
   }
   const double now_s = hostClock_s();
-  if (assembler_->staleInARow() < kStaleBeforeAsking || now_s < askedAgain_s_ + kAskAgain_s) return;
-  askedAgain_s_ = now_s;
+  if (assembler_->staleInARow() < kStaleBeforeAsking || now_s < requestedAgain_s_ + kAskAgain_s) return;
+  requestedAgain_s_ = now_s;
   readConfigurationAgain();
 }
 
@@ -250,21 +250,21 @@ void LiveWorker::takeFrame(const BoardFrame& frame) {
   give_(std::move(live));
 }
 
-/// An alarm stands among the marks, so that curves and recordings hold it.
+/// An alarm becomes a mark, so that curves and recordings have it.
 void LiveWorker::watch(const DecodedForces& forces) {
   blindFrames_ = forces.valid ? 0 : blindFrames_ + 1;
   status_.blind = blindFrames_ >= kBlindFrames;
   if (status_.blind)
-    if (const auto said = alarm_.lose()) mark(*said);
+    if (const auto event = alarm_.lose()) mark(*event);
   if (!forces.valid) return;
   Eigen::Matrix3Xd forces_N = forces.forces_N;
   for (Eigen::Index column = 0; column < forces_N.cols(); ++column)
     if (!forces.shown[static_cast<std::size_t>(column)]) forces_N.col(column).setZero(); // it may be noise alone
-  const std::optional<std::string> said = alarm_.add(forces_N);
-  if (!said) return;
-  mark(*said);
+  const std::optional<std::string> event = alarm_.add(forces_N);
+  if (!event) return;
+  mark(*event);
   if (alarm_.words().empty()) return;
-  status_.lastAlarm = *said;
+  status_.lastAlarm = *event;
   ++status_.alarms;
 }
 
@@ -349,7 +349,7 @@ void LiveWorker::setDecoder(std::optional<Decoder> decoder, std::optional<Sensor
 }
 
 void LiveWorker::pause(bool paused) {
-  if (paused_ && !paused && assembler_) assembler_->restart(); // what came meanwhile is no loss
+  if (paused_ && !paused && assembler_) assembler_->restart(); // reports of the pause do not count as lost
   paused_ = paused;
 }
 

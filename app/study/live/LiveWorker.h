@@ -20,7 +20,7 @@ public:
 
   /// One report, one look for a board, or a short wait. Throws nothing.
   void step();
-  /// Runs a call of the session's user. What it throws ends the connection, and the status says why.
+  /// Runs a call of the session's user. What it throws ends the connection, and the status has the reason.
   void guarded(const std::function<void()>& call);
   [[nodiscard]] LiveState state() const { return status_.state; }
   [[nodiscard]] LiveStatus status();
@@ -72,7 +72,7 @@ private:
   Hotplug hotplug_;
   bool searched_ = false;
   std::unique_ptr<ReportSource> source_;
-  using BoardIdentity = std::pair<std::string, BoardInfo>; ///< name and what it says of itself
+  using BoardIdentity = std::pair<std::string, BoardInfo>; ///< name and its own description
   /// The board that sent reports of another protocol: left alone until it is gone or another one is there.
   std::optional<BoardIdentity> otherProtocol_;
   std::optional<FrameAssembler> assembler_;
@@ -89,10 +89,10 @@ private:
   RawReport report_;
   LiveStatus status_;
   bool paused_ = false, idle_ = false;
-  std::string mark_;        ///< of the user, the last one
-  std::uint64_t jumps_ = 0; ///< of the recording that is played
-  double arrival_s_ = 0;    ///< host clock at the last report
-  double askedAgain_s_ = 0; ///< host clock when the configuration was read again
+  std::string mark_;            ///< of the user, the last one
+  std::uint64_t jumps_ = 0;     ///< of the recording that is played
+  double arrival_s_ = 0;        ///< host clock at the last report
+  double requestedAgain_s_ = 0; ///< host clock when the configuration was read again
   double rateStart_s_ = 0;
   std::uint64_t rateReports_ = 0, rateFrames_ = 0;
 };

@@ -14,7 +14,7 @@ constexpr double kParameters = 3;     // forces that are fitted to the readings
 constexpr double kMarginOfRange = 0.02;
 constexpr double kMarginDeviations = 4;
 constexpr double kDisagreement = 0.05;  // of the range, at least
-constexpr double kDoubtMemory_s = 0.25; // of what is said
+constexpr double kDoubtMemory_s = 0.25; // of what is reported
 constexpr double kSayAbove = 0.5, kUnsayBelow = 0.1;
 constexpr double kLongestStep_s = 1;
 constexpr double kOtherBoard = 100; // times the limit: no touch, hysteresis or warming of this sensor does that
@@ -124,7 +124,7 @@ std::string Plausibility::outsideWords(const PlausibilityInput& input) const {
          " N";
 }
 
-/// Doubts in more than half of the last quarter of a second are said, until they are fewer than a tenth.
+/// Doubts in more than half of the last quarter of a second are reported, until they are fewer than a tenth.
 void Plausibility::follow(Doubt doubt, double time_s) {
   const double step_s = std::clamp(time_s - last_s_, 0.0, kLongestStep_s);
   last_s_ = time_s;

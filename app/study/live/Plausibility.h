@@ -25,7 +25,7 @@ struct PlausibilityInput {
 
 /// Whether a decoded force can be true: the readings are compared with those of the most likely single touch, the force
 /// with the range of the training, and the network with that touch. One frame in a hundred of good readings is
-/// doubted; what is said follows only doubts that last.
+/// doubted; only doubts that last are reported.
 class Plausibility {
 public:
   struct Verdict {

@@ -21,7 +21,7 @@ public:
 
   /// R / R at rest - 1, row-wires x column-wires; NaN where the reading is not good.
   [[nodiscard]] Eigen::MatrixXd change(const BoardFrame& frame) const;
-  /// In words: "the tared frames", "the design at rest" or "the first frame".
+  /// As text: "the tared frames", "the design at rest" or "the first frame".
   [[nodiscard]] const char* name() const;
 
 private:

@@ -11,7 +11,7 @@ public:
       : boards_(std::move(boards)), path_(std::move(path)) {}
   ~HeldBoard() override {
     source_.reset(); // first: only then may another one open it
-    boards_->giveBack(path_);
+    boards_->release(path_);
   }
   HeldBoard(const HeldBoard&) = delete;
   HeldBoard& operator=(const HeldBoard&) = delete;
@@ -57,7 +57,7 @@ bool SharedBoards::take(const std::string& path, int reader) {
   return true;
 }
 
-void SharedBoards::giveBack(const std::string& path) {
+void SharedBoards::release(const std::string& path) {
   const std::lock_guard lock(mutex_);
   const auto holder = held_.find(path);
   if (--holder->second.times == 0) held_.erase(holder);
@@ -71,7 +71,7 @@ std::unique_ptr<ReportSource> SharedBoards::open(const std::string& device, int 
       taken = board.serial + " at " + board.path;
       continue;
     }
-    auto held = std::make_unique<HeldBoard>(shared_from_this(), board.path); // gives back where it cannot be opened
+    auto held = std::make_unique<HeldBoard>(shared_from_this(), board.path); // released where it cannot be opened
     auto source = access_.open(board.path);
     if (!source) return nullptr;
     held->set(std::move(source));

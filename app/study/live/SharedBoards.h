@@ -9,7 +9,7 @@
 
 namespace palp {
 
-/// The boards of one program that reads several at once: each board is read by one session at a time, and "the first
+/// The boards of one program that reads several together: each board is read by one session at a time, and "the first
 /// board" is the first that no other session reads.
 class SharedBoards : public std::enable_shared_from_this<SharedBoards> {
 public:
@@ -28,7 +28,7 @@ private:
   };
   std::unique_ptr<ReportSource> open(const std::string& device, int reader);
   bool take(const std::string& path, int reader);
-  void giveBack(const std::string& path);
+  void release(const std::string& path);
 
   BoardAccess access_;
   mutable std::mutex mutex_;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kDegree = 3;     // 2e-7 of the displacements in the paper's range
 constexpr double kShear = 0.8; // share of the ranges that the touch goes through
 constexpr double kPress = 0.9;
-constexpr std::size_t kTold = 500; // half a second of a quick board
+constexpr std::size_t kStates = 500; // half a second of a quick board
 
 /// Column of the sample with the smallest force.
 Eigen::Index nearestRest(const SampleSet& samples) {
@@ -90,17 +90,17 @@ std::optional<SimulatedTouch::Truth> TouchHand::held() const {
 
 void TouchHand::tell(double time_s, const SimulatedTouch::Truth& now) {
   const std::lock_guard lock(mutex_);
-  if (!told_.empty() && time_s < told_.back().first) told_.clear(); // the board was started anew
-  told_.emplace_back(time_s, now);
-  if (told_.size() > kTold) told_.pop_front();
+  if (!states_.empty() && time_s < states_.back().first) states_.clear(); // the board was started anew
+  states_.emplace_back(time_s, now);
+  if (states_.size() > kStates) states_.pop_front();
 }
 
-std::optional<SimulatedTouch::Truth> TouchHand::told(double time_s) const {
+std::optional<SimulatedTouch::Truth> TouchHand::at(double time_s) const {
   const std::lock_guard lock(mutex_);
-  if (told_.empty()) return {};
-  const auto after = std::lower_bound(told_.begin(), told_.end(), time_s,
+  if (states_.empty()) return {};
+  const auto after = std::lower_bound(states_.begin(), states_.end(), time_s,
                                       [](const auto& one, double wanted_s) { return one.first < wanted_s; });
-  return after == told_.end() ? told_.back().second : after->second;
+  return after == states_.end() ? states_.back().second : after->second;
 }
 
 namespace {

@@ -57,18 +57,18 @@ private:
 /// Holds the simulated touch, from any thread.
 class TouchHand {
 public:
-  /// None: the touch goes over the areas by itself.
+  /// None: the touch moves over the areas automatically.
   void hold(const std::optional<SimulatedTouch::Truth>& touch);
   [[nodiscard]] std::optional<SimulatedTouch::Truth> held() const;
-  /// What touches at a time of the board, by itself or held; said by the simulated board of an indenter alone.
+  /// What touches at a time of the board, moved automatically or held; only of a simulated board with an indenter.
   void tell(double time_s, const SimulatedTouch::Truth& now);
-  /// What it was told of the time next to this one, of the last few hundred; none before the first.
-  [[nodiscard]] std::optional<SimulatedTouch::Truth> told(double time_s) const;
+  /// Its state at the time closest to this one, of the last few hundred; none before the first.
+  [[nodiscard]] std::optional<SimulatedTouch::Truth> at(double time_s) const;
 
 private:
   mutable std::mutex mutex_;
   std::optional<SimulatedTouch::Truth> touch_;
-  std::deque<std::pair<double, SimulatedTouch::Truth>> told_;
+  std::deque<std::pair<double, SimulatedTouch::Truth>> states_;
 };
 
 /// A virtual board of the sensor that the samples are of, under the simulated touch: of samples of touches under an

@@ -58,8 +58,8 @@ struct ProtocolRow {
 /// One way to train, at all its spreads.
 struct ProtocolCurve {
   std::string figure; ///< table1 or fig12
-  std::string mode;   ///< default, paper, linear, paper-minmax (Fig. 12 with each input scaled by itself)
-  std::string what;   ///< in words: scaler, centres, basis, solver
+  std::string mode;   ///< default, paper, linear, paper-minmax (Fig. 12 with each input scaled alone)
+  std::string what;   ///< as text: scaler, centres, basis, solver
   std::vector<ProtocolRow> rows;
 };
 
@@ -75,7 +75,7 @@ struct ProtocolTrace {
 struct ProtocolResult {
   std::vector<ProtocolCurve> curves;
   std::vector<ProtocolTrace> traces;
-  std::string mesh;      ///< in words
+  std::string mesh;      ///< as text
   double batchError = 0; ///< relative, of the samples against full Newton
   std::size_t samples = 0;
   std::size_t solves = 0;

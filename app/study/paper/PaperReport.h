@@ -15,7 +15,7 @@ struct ReportPicture {
   std::string section; ///< deformation, table1 or fig12
 };
 
-/// What a report says about how it came about.
+/// How a report was made.
 struct ReportRun {
   std::string command; ///< that makes it again
   int seeds = 1;
@@ -26,11 +26,8 @@ struct ReportRun {
 /// Every point of every curve: figure, mode, spread, area, force, errors, condition.
 std::string protocolCsv(const ProtocolResult& result);
 
-/// The page with the paper's numbers beside ours.
+/// The page that compares the paper's numbers with ours.
 std::string paperReportHtml(const ProtocolResult& result, const std::vector<ReportPicture>& pictures,
                             const ReportRun& run);
-
-/// Machine and versions, for the foot of a report.
-std::string machineLine();
 
 } // namespace palp

@@ -1,29 +1,19 @@
 #include "app/study/reports/Csv.h"
 
+#include "io/CsvText.h"
 #include "model/base/Text.h"
 
 #include <cassert>
 
 namespace palp {
 
-namespace {
-
-std::string quoted(const std::string& words) {
-  if (words.find_first_of(",\"\n") == std::string::npos) return words;
-  std::string result = "\"";
-  for (const char c : words) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
-
-} // namespace
-
-CsvCell::CsvCell(const char* words) : text_(quoted(words)) {}
-CsvCell::CsvCell(const std::string& words) : text_(quoted(words)) {}
+CsvCell::CsvCell(const char* words) : text_(csvField(words)) {}
+CsvCell::CsvCell(const std::string& words) : text_(csvField(words)) {}
 CsvCell::CsvCell(double number) : text_(palp::text(number)) {}
 CsvCell::CsvCell(int number) : text_(std::to_string(number)) {}
 
 Csv::Csv(const std::vector<std::string>& heads) : columns_(heads.size()) {
-  for (std::size_t i = 0; i < heads.size(); ++i) text_ += (i > 0 ? "," : "") + quoted(heads[i]);
+  for (std::size_t i = 0; i < heads.size(); ++i) text_ += (i > 0 ? "," : "") + csvField(heads[i]);
   text_ += '\n';
 }
 
@@ -40,6 +30,19 @@ void Csv::add(const std::vector<CsvCell>& cells) {
     first = false;
   }
   text_ += '\n';
+}
+
+void Csv::addForces(const std::vector<CsvForces>& quantities, const std::vector<CsvCell>& cells,
+                    const std::vector<CsvCell>& after) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const CsvForces& quantity : quantities) {
+      std::vector<CsvCell> line{quantity.what};
+      line.insert(line.end(), cells.begin(), cells.end());
+      line.emplace_back(std::string("F") + "xyz"[axis]);
+      line.insert(line.end(), after.begin(), after.end());
+      line.emplace_back(quantity.values(axis));
+      add(line);
+    }
 }
 
 } // namespace palp

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -20,6 +22,12 @@ private:
   std::string text_;
 };
 
+/// A quantity of each force by its name.
+struct CsvForces {
+  std::string what;
+  Eigen::Vector3d values; ///< of Fx, Fy, Fz
+};
+
 /// Comma-separated values with one header line; fields with commas or quotes are quoted (RFC 4180).
 class Csv {
 public:
@@ -27,6 +35,9 @@ public:
   /// One line; as many cells as heads.
   void add(std::initializer_list<CsvCell> cells);
   void add(const std::vector<CsvCell>& cells);
+  /// For Fx, Fy and Fz a line of each quantity: its name, `cells`, the force, `after`, its value.
+  void addForces(const std::vector<CsvForces>& quantities, const std::vector<CsvCell>& cells,
+                 const std::vector<CsvCell>& after = {});
   [[nodiscard]] const std::string& text() const { return text_; }
 
 private:

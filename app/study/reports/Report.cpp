@@ -1,26 +1,16 @@
 #include "app/study/reports/Report.h"
 
-#include "app/study/paper/PaperReport.h"
 #include "app/study/reports/Csv.h"
 #include "app/study/reports/ReportPage.h"
 #include "io/DesignFile.h"
 #include "io/FilesTogether.h"
 #include "model/base/Cancelled.h"
 
+#include <fstream>
+#include <sys/utsname.h>
+#include <thread>
+
 namespace palp {
-
-const char* const kLeftOut = "Eq. (1) adds independent pairs of electrodes in a block that conducts everywhere: no "
-                             "sneak paths, no field between "
-                             "them. The rubber has no hysteresis, creep or temperature, which in real conductive "
-                             "rubber exceed 1e-4 of R by far. "
-                             "The load areas are stuck to their dead traction: no contact, no friction. A board will "
-                             "do worse than these numbers.";
-
-const char* const kFieldAssumed =
-    "Electrodes are spheres of one radius, taken as point sources with the dipoles that the field induces in them. The "
-    "rubber's conductivity is constant and the same in all directions, also where it is deformed: were the carbon "
-    "carried along by the strain, a change of shape would change no resistance. Everything is linear, at rest. No "
-    "hysteresis, creep or temperature. The load areas are stuck to their dead traction.";
 
 namespace {
 
@@ -82,18 +72,39 @@ private:
   int notDrawn_ = 0;
 };
 
-void writeOrigin(ReportPage& page, const ReportContent& content, const ReportRequest& request, double seconds) {
-  page.heading("How it was made");
-  page.code(request.command);
-  page.paragraph("Design " + designFingerprint(request.design) + ", seed " + std::to_string(request.seed) + ".");
+std::string processorName() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line))
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+/// Machine and versions.
+std::string machineLine() {
+  utsname system{};
+  uname(&system);
+  return processorName() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads, " + system.sysname +
+         " " + system.release + ", Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." +
+         std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION) + ", compiler " + __VERSION__;
+}
+
+} // namespace
+
+void ReportTable::add(std::initializer_list<ReportValue> cells, Mark mark) {
+  marks.resize(rows.size(), Mark::Plain);
+  marks.push_back(mark);
+  std::vector<std::string>& row = rows.emplace_back();
+  for (const ReportValue& cell : cells) row.push_back(cell.text());
+}
+
+void addTimes(ReportPage& page, const StageLog& stages, double seconds) {
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [stage, count] : content.stages.counts())
+  for (const auto& [stage, count] : stages.counts())
     rows.push_back({stage, std::to_string(count.runs), shortNumber(count.seconds)});
   if (!rows.empty()) page.table({"stage", "runs", "seconds"}, rows);
   page.paragraph("Total time " + shortNumber(seconds) + " s. " + machineLine() + ".");
 }
-
-} // namespace
 
 ReportProgress partOf(const ReportProgress& whole, double from, double width) {
   return [whole, from, width](double share, const std::string& what) {
@@ -109,7 +120,10 @@ ReportOutcome writeReport(const ReportContent& content, const ReportRequest& req
   PageWriter writer(page, files, draw, stop);
   for (const ReportPart& part : content.parts) std::visit(writer, part);
   for (const std::string& warning : content.warnings) page.paragraph("Note: " + warning);
-  writeOrigin(page, content, request, seconds);
+  page.heading("How it was made");
+  page.code(request.command);
+  page.paragraph("Design " + designFingerprint(request.design) + ", seed " + std::to_string(request.seed) + ".");
+  addTimes(page, content.stages, seconds);
 
   ReportOutcome outcome;
   outcome.done = true;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "app/study/StageLog.h"
+#include "app/study/reports/ReportValue.h"
 #include "model/SensorDesign.h"
 #include "model/TouchRange.h"
 #include "solver/SensorMesh.h"
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -38,7 +40,7 @@ struct ReportChart {
   bool logX = false;
   bool logY = false;
   std::vector<ReportCurve> curves{};
-  std::string topLabel{};                                 ///< a second x axis along the top: what it says
+  std::string topLabel{};                                 ///< label of a second x axis along the top
   std::vector<std::pair<double, std::string>> topTicks{}; ///< and where; empty: none
 };
 
@@ -49,7 +51,9 @@ struct ReportTable {
   std::string caption{};
   std::vector<std::string> heads{};
   std::vector<std::vector<std::string>> rows{};
-  std::vector<Mark> marks{}; ///< one a row, or empty
+  std::vector<Mark> marks{}; ///< of the rows; plain beyond the last of them
+
+  void add(std::initializer_list<ReportValue> cells, Mark mark = Mark::Plain);
 };
 
 /// Values over a rectangle of the sensor's face, as coloured cells; app/scenes draws them.
@@ -79,7 +83,7 @@ struct ReportFile {
   std::string content;
 };
 
-/// What a report says, in the order of its page.
+/// Content of a report, in the order of its page.
 struct ReportContent {
   std::string title;
   std::vector<ReportPart> parts;
@@ -91,12 +95,7 @@ struct ReportContent {
   std::vector<std::string> warnings;
 };
 
-/// What the model leaves out, for reports whose numbers could be mistaken for a board's.
-extern const char* const kLeftOut;
-/// What is assumed of the field at rest, for the reports under it.
-extern const char* const kFieldAssumed;
-
-/// What is asked of every kind of report.
+/// What every kind of report gets.
 struct ReportRequest {
   SensorDesign design = paperDesign();
   std::filesystem::path folder; ///< of report.html, points.csv and the pictures
@@ -107,12 +106,10 @@ struct ReportRequest {
       touches{};       ///< of the map (none: the design's usual ones), and what a layout is to resolve (none: areas)
   int threads = 0;     ///< 0: all cores
   std::string command; ///< that makes the report again; printed in it
-  /// Folder of palp and palp-studio, for the report that measures them; empty: they are not run.
-  std::filesystem::path programs{};
 };
 
 /// A part of a run, for those who wait for it: up to which share of its progress it goes, and how long it takes on two
-/// cores with the paper's design and 100 samples an area.
+/// cores with the paper's design and 100 samples per area.
 struct RunPart {
   std::string name{};
   double until = 1;
@@ -122,7 +119,7 @@ struct RunPart {
 
 /// Gets a share 0..1 and what is being done; may be called from another thread, one call at a time.
 using ReportProgress = std::function<void(double, const std::string&)>;
-/// The progress of a part that begins at the share `from` of the whole.
+/// The progress of a part that begins at the share `from` of the total.
 ReportProgress partOf(const ReportProgress& whole, double from, double width);
 
 /// What a run of a report left behind.
@@ -143,7 +140,11 @@ struct ReportDrawer {
   std::function<void(const ReportMap&, const std::filesystem::path&)> map{};
 };
 
-/// Writes page, CSV, pictures and further files into the folder of the request. Without a drawer the page says that
+class ReportPage;
+/// Adds how often each stage ran and how long, the total time and the machine.
+void addTimes(ReportPage& page, const StageLog& stages, double seconds);
+
+/// Writes page, CSV, pictures and further files into the folder of the request. Without a drawer the page states that
 /// this program draws no charts. Throws Error where a file cannot be written and Cancelled where it was stopped; then
 /// none of its files stays.
 ReportOutcome writeReport(const ReportContent& content, const ReportRequest& request, double seconds,

@@ -13,7 +13,7 @@ struct ReportComputation {
   /// Empty where it was stopped. Throws Error where the design cannot be.
   std::function<std::optional<ReportContent>(const ReportRequest&, const ReportProgress&, std::stop_token)> compute;
   std::vector<RunPart> parts;        ///< in the order in which they run
-  bool underField = false;           ///< whether it knows the law of the field; the others refuse such a design
+  bool underField = false;           ///< whether it supports the law of the field; the others refuse such a design
   std::vector<RunPart> fieldParts{}; ///< of a design of that law, where they are others
 };
 

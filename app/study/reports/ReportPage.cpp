@@ -2,9 +2,7 @@
 
 #include "model/base/Base64.h"
 #include "model/base/Error.h"
-#include "model/base/NumberText.h"
 
-#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -74,7 +72,7 @@ void ReportPage::table(const std::vector<std::string>& heads, const std::vector<
   for (const std::string& head : heads) body_ += "<th>" + escaped(head) + "</th>";
   body_ += "</tr></thead><tbody>\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    body_ += rowClasses.empty() || rowClasses[r].empty() ? "<tr>" : "<tr class=\"" + rowClasses[r] + "\">";
+    body_ += r >= rowClasses.size() || rowClasses[r].empty() ? "<tr>" : "<tr class=\"" + rowClasses[r] + "\">";
     for (const std::string& cell : rows[r]) body_ += "<td>" + unbroken(escaped(cell)) + "</td>";
     body_ += "</tr>\n";
   }
@@ -94,15 +92,6 @@ std::string ReportPage::html() const {
          "content=\"width=device-width\"><title>" +
          escaped(title_) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" + escaped(title_) + "</h1>\n" +
          body_ + "</body></html>\n";
-}
-
-std::string shortNumber(double value) {
-  if (!std::isfinite(value)) return "-";
-  return withDigits(value, 4);
-}
-
-std::string triple(const Eigen::Vector3d& values) {
-  return shortNumber(values.x()) + " / " + shortNumber(values.y()) + " / " + shortNumber(values.z());
 }
 
 } // namespace palp

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "app/study/reports/ReportValue.h"
 
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ public:
   /// A command line or its output, as it is.
   void code(const std::string& text);
   /// First column left, numbers right; every row has as many cells as there are heads. `rowClasses` colours rows: good,
-  /// doubtful, bad, or nothing; one a row, or none at all.
+  /// doubtful, bad, or nothing; rows beyond the last of them have no colour.
   void table(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows,
              const std::string& caption = {}, const std::vector<std::string>& rowClasses = {});
   /// Embeds a PNG file. Throws Error where it cannot be read.
@@ -30,10 +30,5 @@ private:
   std::string title_;
   std::string body_;
 };
-
-/// Four significant digits, or "-" for what is not finite.
-std::string shortNumber(double value);
-/// x / y / z in short.
-std::string triple(const Eigen::Vector3d& values);
 
 } // namespace palp

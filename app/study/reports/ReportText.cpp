@@ -40,10 +40,33 @@ std::string ReportText::operator()(const std::string& key, const Values& values)
     const auto value = values.find(words.substr(open + 1, close - open - 1));
     if (value == values.end())
       throw std::logic_error(file_ + ": " + key + " lacks " + words.substr(open, close - open));
-    filled += value->second;
+    filled += value->second.text();
     at = close + 1;
   }
   return filled;
+}
+
+ReportTable ReportText::table(const std::string& key, const Values& values) const {
+  const std::string parts = (*this)(key, values), separator = " | ";
+  std::size_t end = parts.find(separator);
+  ReportTable table{.caption = parts.substr(0, end)};
+  while (end != std::string::npos) {
+    const std::size_t start = end + separator.size();
+    end = parts.find(separator, start);
+    table.heads.push_back(parts.substr(start, end - start));
+  }
+  return table;
+}
+
+ReportChart ReportText::chart(const std::string& file, const std::string& key, const Values& values) const {
+  const ReportTable parts = table(key, values);
+  if (parts.heads.size() != 3)
+    throw std::logic_error(file_ + ": " + key + " needs caption | title | x label | y label");
+  return {.file = file,
+          .caption = parts.caption,
+          .title = parts.heads[0],
+          .xLabel = parts.heads[1],
+          .yLabel = parts.heads[2]};
 }
 
 std::vector<std::string> ReportText::keys() const {

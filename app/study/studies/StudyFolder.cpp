@@ -4,6 +4,7 @@
 #include "app/study/reports/Csv.h"
 #include "app/study/studies/StudyRow.h"
 #include "io/AtomicFile.h"
+#include "io/CsvText.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 
@@ -19,7 +20,7 @@ namespace {
 constexpr const char *kStudyFile = "study.json", *kRows = "rows";
 constexpr const char* kMadeBy = "# program: "; // second line of a row's file
 
-/// Who made a row, by what stands below its line.
+/// Who made a row, from the text below its line.
 std::string madeBy(const std::string& content) {
   const std::string below = content.substr(content.find('\n') + 1);
   if (!below.starts_with(kMadeBy)) return "an older palp";
@@ -37,7 +38,7 @@ void StudyFolder::requireFits(const fs::path& folder, const StudyPlan& plan) {
   const auto refuse = [&](const std::string& sentence) { throw Error(folder.string() + ": " + sentence); };
   std::error_code failed;
   const fs::file_status status = fs::status(folder, failed);
-  if (!fs::exists(status)) return; // where it cannot be made, its maker says why
+  if (!fs::exists(status)) return; // where it cannot be made, its maker reports why
   if (!fs::is_directory(status)) refuse(gotExpected("a file", "a folder"));
   const fs::path file = folder / kStudyFile;
   if (fs::exists(file, failed)) {
@@ -60,7 +61,7 @@ StudyFolder::StudyFolder(fs::path folder, StudyPlan plan)
   std::error_code failed;
   fs::create_directories(folder_ / kRows, failed);
   if (failed) throw Error(folder_.string() + ": the folder cannot be created: " + failed.message());
-  requireWritable(row(0), true); // said before the work
+  requireWritable(row(0), true); // refused before the work
   removeLeftovers(folder_);
   if (!fs::exists(folder_ / kStudyFile)) // another shard may have written the same just now
     writeFile(folder_ / kStudyFile, toJson(plan_, program()), true);
@@ -98,7 +99,7 @@ bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, cons
         [&](double share, const std::string& what) { tell(before + share, design + ": " + what); }, stop);
     if (!found) return false;
     const std::string text = studyLine(plan_, columns_, missing[k], *found) + kMadeBy + programHere() + "\n";
-    writeFile(row(missing[k]), text, true); // whole or not at all
+    writeFile(row(missing[k]), text, true); // complete or not at all
     tell(before + 1, design);
   }
   return true;
@@ -107,7 +108,7 @@ bool StudyFolder::compute(std::size_t first, std::size_t last, int threads, cons
 std::string StudyFolder::line(std::size_t design) const {
   const std::string content = readFile(row(design));
   const std::string line = content.substr(0, content.find('\n') + 1), below = content.substr(line.size());
-  const std::vector<std::string> cells = studyCells(line);
+  const std::vector<std::string> cells = csvFields(line);
   const bool whole = below.empty() || (below.starts_with(kMadeBy) && below.find('\n') + 1 == below.size());
   if (cells.size() != columns_.size() || cells[0] != std::to_string(design) || line.empty() || !whole)
     throw Error(row(design).string() + ": no row of design " + std::to_string(design) +
@@ -116,7 +117,7 @@ std::string StudyFolder::line(std::size_t design) const {
 }
 
 bool StudyFolder::hasProblem(std::size_t design) const {
-  return !studyCells(line(design))[1 + plan_.axes.size()].empty();
+  return !csvFields(line(design))[1 + plan_.axes.size()].empty();
 }
 
 std::string StudyFolder::mixedPrograms() const {

@@ -8,9 +8,9 @@
 
 namespace palp {
 
-/// The folder of a study: study.json (the whole plan), rows/ with a file a design that is done, and, once all are,
-/// table.csv. A run that was killed goes on where it ended; several may work on shards of one folder. Each row says
-/// which program made it.
+/// The folder of a study: study.json (the complete plan), rows/ with a file for each finished design, and, once all
+/// are, table.csv. A run that was killed continues where it ended; several may work on shards of one folder. Each row
+/// has which program made it.
 class StudyFolder {
 public:
   /// Makes the folder. Throws Error where it cannot be that of the study.
@@ -20,7 +20,7 @@ public:
 
   [[nodiscard]] const StudyPlan& plan() const { return plan_; }
   [[nodiscard]] bool done(std::size_t design) const;
-  /// Rows that are there of all designs.
+  /// Number of finished rows.
   [[nodiscard]] std::size_t rowsDone() const;
 
   /// Works out what is missing among the designs first..last-1, with `retryProblems` also those whose rows have a
@@ -28,7 +28,7 @@ public:
   bool compute(std::size_t first, std::size_t last, int threads, const ReportProgress& progress,
                const std::stop_token& stop, bool retryProblems = false);
 
-  /// That rows are of several programs, or will be when this one goes on: a sentence with their numbers. Else empty.
+  /// That rows are of several programs, or will be when this one continues: a sentence with their numbers. Else empty.
   [[nodiscard]] std::string mixedPrograms() const;
 
   /// Joins all rows, in the order of the designs, into table.csv. Throws Error where one is missing or broken.

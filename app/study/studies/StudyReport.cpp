@@ -3,6 +3,7 @@
 #include "app/study/reports/ReportPage.h"
 #include "app/study/studies/StudyRow.h"
 #include "io/AtomicFile.h"
+#include "io/CsvText.h"
 #include "model/base/NumberText.h"
 
 #include <algorithm>
@@ -38,8 +39,8 @@ ReportContent studyReport(const StudyFolder& study) {
   std::istringstream table(readFile(study.table()));
   std::string line;
   std::getline(table, line);
-  const std::vector<std::string> columns = studyCells(line);
-  while (std::getline(table, line)) rows.push_back(studyCells(line));
+  const std::vector<std::string> columns = csvFields(line);
+  while (std::getline(table, line)) rows.push_back(csvFields(line));
   const std::size_t problem = 1 + plan.axes.size();
   const auto failed = std::count_if(rows.begin(), rows.end(), [&](const auto& row) { return !row[problem].empty(); });
 

@@ -157,7 +157,7 @@ std::optional<StudyRow> studyRow(const StudyPlan& plan, std::size_t design, int 
     return RowWork(plan, std::move(chosen), areas, threads, progress, stop).run();
   } catch (const Cancelled&) {
     return {};
-  } catch (const Error& problem) { // a design without a result is a row of its own, said in the table
+  } catch (const Error& problem) { // a design without a result is a row with the reason
     return StudyRow{problem.what()};
   } catch (const std::bad_alloc&) {
     return StudyRow{"not enough memory for this design; use a coarser mesh or another machine"};
@@ -174,23 +174,6 @@ std::string studyLine(const StudyPlan& plan, const std::vector<std::string>& col
   Csv csv(columns);
   csv.add(cells);
   return csv.text().substr(Csv(columns).text().size());
-}
-
-std::vector<std::string> studyCells(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else if (c != '\n')
-      cells.back() += c;
-  }
-  return cells;
 }
 
 } // namespace palp

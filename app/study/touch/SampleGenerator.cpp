@@ -74,15 +74,15 @@ SampleGenerator::SampleGenerator(SensorDesign design, SampleRequest request)
                       gotExpected(std::to_string(request_.perArea), "1 to " + std::to_string(kMostPerArea)));
   if (request_.touches) {
     if (const auto wrong = whyInvalid(*request_.touches, design_)) throw DesignError("touches: " + *wrong);
-    if (request_.surrogate) throw DesignError("surrogate: " + gotExpected("touches", "forces on whole areas"));
+    if (request_.surrogate) throw DesignError("surrogate: " + gotExpected("touches", "forces on complete areas"));
     request_.areas = "touches";
     origin_.touches = inWords(*request_.touches);
-    if (request_.touches->atOnce == 1) lowSide_ = LowSide(design_, *request_.touches);
-    solved_ = lowSide_.of(*request_.touches);
+    if (request_.touches->atOnce == 1) symmetry_ = SymmetryReduction(design_, *request_.touches);
+    solved_ = symmetry_.of(*request_.touches);
   } else {
     onlyArea_ = onlyArea(request_.areas, design_.areas.count());
     // Eq. (1) pays little for a surrogate, and its samples are as they were to the last byte.
-    if (request_.surrogate && request_.areas != "together" && design_.field()) lowSide_ = LowSide(design_);
+    if (request_.surrogate && request_.areas != "together" && design_.field()) symmetry_ = SymmetryReduction(design_);
   }
   origin_.designFingerprint = designFingerprint(design_);
   if (const FieldLaw* field = design_.field()) origin_.readout = field->readout;
@@ -128,8 +128,8 @@ MeshOptions SampleGenerator::meshing() {
 bool SampleGenerator::prepare(Part& part, bool checked, const std::stop_token& stop) {
   if (part.solver) return true;
   const MeshOptions options = meshOf(part);
-  const int beside = partsBeside(static_cast<std::size_t>(&part - parts_.data()));
-  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / beside};
+  const int concurrent = concurrentParts(static_cast<std::size_t>(&part - parts_.data()));
+  BatchOptions batch{request_.relativeTolerance, request_.surrogate, threadCount(request_.threads) / concurrent};
   batch.checkFirst = checked;
   batch.skipFailed = request_.touches.has_value();
   if (part.touches && (parts_.size() > 1 || part.touches->shape != IndenterShape::Plane))
@@ -153,13 +153,13 @@ void SampleGenerator::split() {
   if (request_.touches && request_.touches->atOnce == 1) {
     for (const TouchRange& part : partsOfTouches(design_, solved_, request_.mesh, &cuts_))
       parts_.emplace_back().touches = part;
-  } else { // two touches at once lie in no part alone
+  } else { // two touches together are in no part alone
     parts_.resize(1);
     parts_.front().touches = request_.touches;
   }
 }
 
-/// All that the head of the file says; touches' meshes are made when they are needed.
+/// All of the head of the file; touches' meshes are made when they are needed.
 bool SampleGenerator::prepare(const std::stop_token& stop) {
   split();
   if (parts_.size() > 1) {
@@ -168,7 +168,7 @@ bool SampleGenerator::prepare(const std::stop_token& stop) {
     const double factor = mesh.meshSize_mm.value_or(standardMeshSize_mm(design_)) / standardMeshSize_mm(design_);
     origin_.mesh = "P2+bubble/P1d, " + std::to_string(parts_.size()) + " meshes of cells of " +
                    text(std::round(1000 * factor * mesh.zones.front().size_mm.minCoeff()) / 1000) +
-                   " mm where their share of the touches" + (lowSide_.empty() ? " is" : " and their mirror images is");
+                   " mm where their share of the touches" + (symmetry_.empty() ? " is" : " and their mirror images is");
     return !stop.stop_requested();
   }
   Part& part = parts_.front();
@@ -190,7 +190,7 @@ bool SampleGenerator::fitSurrogates(const std::stop_token& stop) {
   Part& part = parts_.front();
   std::vector<int> wanted(static_cast<std::size_t>(onlyArea_ ? 1 : design_.areas.count()));
   std::iota(wanted.begin(), wanted.end(), onlyArea_.value_or(0));
-  const std::vector<int> all = lowSide_.of(wanted);
+  const std::vector<int> all = symmetry_.of(wanted);
   const auto together = static_cast<std::size_t>(std::min(threadCount(request_.threads), kMostAreasTogether));
   for (std::size_t k = 0; k < all.size(); k += together) {
     const std::span<const int> areas = std::span(all).subspan(k, std::min(together, all.size() - k));
@@ -288,8 +288,8 @@ ConductionBatch::Answers SampleGenerator::answers(const SampleRange& part, bool 
   const auto answersTo = [&](const std::vector<std::size_t>& some, const std::function<void(std::size_t)>& solved) {
     std::vector<LoadCase> loads;
     for (const std::size_t i : some) loads.push_back(load(i));
-    ConductionBatch::Answers found = answers(lowSide_.of(loads), some, last, solved, stop);
-    lowSide_.bringBack(loads, found);
+    ConductionBatch::Answers found = answers(symmetry_.of(loads), some, last, solved, stop);
+    symmetry_.mapBack(loads, found);
     return found;
   };
   ConductionBatch::Answers all = answersTo(numbers, progress);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/study/StageLog.h"
-#include "app/study/touch/LowSide.h"
+#include "app/study/touch/SymmetryReduction.h"
 #include "model/LoadCase.h"
 #include "model/SampleSet.h"
 #include "model/SensorDesign.h"
@@ -70,7 +70,7 @@ public:
   /// the samples.
   void whileFitting(std::function<void(std::size_t done, std::size_t all)> progress) { fitting_ = std::move(progress); }
 
-  /// What the head of the file says; needs the mesh (and for surrogates the fit).
+  /// The head of the file; needs the mesh (and for surrogates the fit).
   const SampleOrigin& origin();
   /// An empty set with this request's origin and sizes. Stopped: its origin lacks what was not computed.
   SampleSet emptySet(const std::stop_token& stop = {});
@@ -98,11 +98,11 @@ private:
     std::unique_ptr<BatchSolver> solver;
     std::unique_ptr<ConductionBatch> field;   ///< under the law of the field
     StageLog stages{};                        ///< not yet counted by the generator's
-    std::size_t solves = 0, leftToNewton = 0; ///< of solvers that were given back
+    std::size_t solves = 0, leftToNewton = 0; ///< of released solvers
     std::optional<double> measuredError;
     std::vector<std::string> doubts;
 
-    void giveBack(); ///< its memory; made again where it is needed again
+    void release(); ///< its memory; made again where it is needed again
   };
   void split();
   [[nodiscard]] MeshOptions meshOf(const Part& part) const;
@@ -128,14 +128,14 @@ private:
   bool answerPart(std::size_t index, bool checked, const std::vector<LoadCase>& loads,
                   const std::vector<std::size_t>& numbers, std::span<const std::size_t> own, ProgressRelay& progress,
                   const std::stop_token& stop, ConductionBatch::Answers& all);
-  [[nodiscard]] int partsBeside(std::size_t index) const;
+  [[nodiscard]] int concurrentParts(std::size_t index) const;
   SampleSet block(SampleRange range, const ConductionBatch::Answers& answers) const;
 
   SensorDesign design_;
   SampleRequest request_;
   std::optional<int> onlyArea_;
   SampleOrigin origin_;
-  LowSide lowSide_;                    ///< where loads are solved
+  SymmetryReduction symmetry_;         ///< where loads are solved
   TouchRange solved_;                  ///< touches there
   std::vector<Part> parts_;            ///< made at the first sample in each
   std::array<int, 2> cuts_{1, 1};      ///< of the rectangle of these into parts along x and y

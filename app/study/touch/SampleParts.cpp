@@ -15,7 +15,7 @@ namespace palp {
 
 /// Parts are solved side by side and share the threads, as many at a time as there are threads; the last of them, where
 /// they are fewer, have all threads among them.
-int SampleGenerator::partsBeside(std::size_t index) const {
+int SampleGenerator::concurrentParts(std::size_t index) const {
   const auto threads = static_cast<std::size_t>(threadCount(request_.threads)), last = parts_.size() % threads;
   return static_cast<int>(index < parts_.size() - last ? threads : last);
 }
@@ -30,7 +30,7 @@ std::size_t SampleGenerator::partOf(const LoadCase& load) const {
   return static_cast<std::size_t>(at[1] * cuts_[0] + at[0]);
 }
 
-void SampleGenerator::Part::giveBack() {
+void SampleGenerator::Part::release() {
   if (solver) {
     solves += solver->solves();
     leftToNewton += solver->leftToNewton();
@@ -57,8 +57,8 @@ ConductionBatch::Answers SampleGenerator::answers(const std::vector<LoadCase>& l
                                std::vector<Eigen::MatrixXd>(loads.size())};
   std::map<int, std::vector<std::size_t>, std::greater<>> inWork; // by how many are solved side by side
   for (std::size_t p = 0; p < parts_.size(); ++p)
-    if (!ofParts[p].empty()) inWork[partsBeside(p)].push_back(p);
-  for (auto& [beside, some] : inWork)
+    if (!ofParts[p].empty()) inWork[concurrentParts(p)].push_back(p);
+  for (auto& [concurrent, some] : inWork)
     std::stable_sort(some.begin(), some.end(),
                      [&](std::size_t a, std::size_t b) { return ofParts[a].size() > ofParts[b].size(); });
   const bool first = std::none_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.solver || p.solves > 0; });
@@ -68,11 +68,11 @@ ConductionBatch::Answers SampleGenerator::answers(const std::vector<LoadCase>& l
   });
   std::atomic<bool> whole = true;
   const std::size_t checked = inWork.begin()->second.front();
-  for (const auto& [beside, some] : inWork)
-    inParallel(some.size(), beside, [&, &parts = some](std::size_t k) {
+  for (const auto& [concurrent, some] : inWork)
+    inParallel(some.size(), concurrent, [&, &parts = some](std::size_t k) {
       const std::size_t p = parts[k];
       if (!answerPart(p, first && p == checked, loads, numbers, ofParts[p], relay, stop, all)) whole = false;
-      if (last) parts_[p].giveBack();
+      if (last) parts_[p].release();
     });
   for (Part& p : parts_) stages_.add(std::exchange(p.stages, {}));
   return whole ? std::move(all) : ConductionBatch::Answers{};

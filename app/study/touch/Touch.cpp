@@ -9,7 +9,7 @@ namespace palp {
 
 namespace {
 
-/// The mesh knows the block, the areas, the upper electrodes and what the field asks of it; all else leaves it as it
+/// The mesh depends on the block, the areas, the upper electrodes and the field's needs; all else leaves it as it
 /// is.
 bool sameMesh(const SensorDesign& a, const SensorDesign& b) {
   return a.block_mm == b.block_mm && a.areas == b.areas && a.upper == b.upper && finerForField(a) == finerForField(b) &&

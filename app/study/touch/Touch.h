@@ -18,11 +18,10 @@ namespace palp {
 /// How far along the chain from the design to the resistances; each needs those before it.
 enum class Stage { Design, Mesh, Solution, Displacements, Resistances };
 
-/// One touch, followed from the design to the resistances, no farther than asked: a change drops what comes after it.
-/// Another law of the resistances leaves the deformation as it is where it asks for the same mesh
-/// (finerForField, finerForPressure), another read-out the field too.
-/// The mesh is finer at the rims of the load's discs. Copies are cheap (results are shared and never changed), so that
-/// a background job takes a copy, advances it and hands it back.
+/// One touch, computed from the design to the resistances, no farther than requested: a change drops what comes after
+/// it. Another law of the resistances leaves the deformation as it is where it asks for the same mesh (finerForField,
+/// finerForPressure), another read-out the field too. The mesh is finer at the rims of the load's discs. Copies are
+/// cheap (results are shared and never changed), so that a background job takes a copy, advances it and hands it back.
 class Touch {
 public:
   explicit Touch(SensorDesign design = paperDesign(), LoadCase load = {}, MeshOptions meshOptions = {});

@@ -9,7 +9,7 @@ namespace palp {
 namespace {
 
 constexpr double kDiscsOfWidth = 30; // radii of the shown disc in the block's narrower side
-constexpr double kHeldBy = 1.2;      // friction over what the force sideways needs
+constexpr double kHeldBy = 1.2;      // friction over what the tangential force needs
 constexpr double kMostFriction = 2;
 
 LoadCase touchAt(const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N, const DecodedForces& forces,
@@ -19,8 +19,8 @@ LoadCase touchAt(const Eigen::Vector2d& place_mm, const Eigen::Vector3d& force_N
     if (forces.indenterSize_mm) indenter->radius_mm = std::max(*forces.indenterSize_mm, indenter->rim_mm);
     indenter->place_mm = place_mm.cwiseMax(0).cwiseMin(design.block_mm.head<2>());
     indenter->control = Press{force_N};
-    const double aside_N = force_N.head<2>().norm();
-    if (aside_N > 0) indenter->friction = std::min(kMostFriction, kHeldBy * aside_N / std::abs(force_N.z()));
+    const double tangential_N = force_N.head<2>().norm();
+    if (tangential_N > 0) indenter->friction = std::min(kMostFriction, kHeldBy * tangential_N / std::abs(force_N.z()));
     if (!whyInvalid(*indenter, design)) {
       load.indenters.push_back(*indenter);
       return load;

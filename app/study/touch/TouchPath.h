@@ -22,7 +22,7 @@ struct TouchPath {
   std::vector<PathStep> steps; ///< up to the first that is not reached
 };
 
-/// One load that wants the mesh of the whole path: of each indenter the largest force or depth, and both corners of
+/// One load that needs the mesh of the complete path: of each indenter the largest force or depth, and both corners of
 /// the rectangle that it is shifted in.
 LoadCase pathEnvelope(const std::vector<LoadCase>& path);
 

@@ -13,7 +13,7 @@ namespace palp {
 
 constexpr std::size_t kEntryHead = 12; ///< bytes before those of the entry itself
 
-/// What stands before the bytes of an entry.
+/// What precedes the bytes of an entry.
 struct EntryHead {
   RecordingEntry::Kind kind = RecordingEntry::Kind::Raw;
   std::size_t length = 0;
@@ -22,7 +22,7 @@ struct EntryHead {
 
 /// What could be the head of an entry: a spoilt byte in it mostly shows.
 std::optional<EntryHead> entryHead(std::span<const std::uint8_t> bytes);
-/// The bytes of an entry between the reports are what its kind says.
+/// The bytes of an entry between the reports depend on its kind.
 bool isGood(RecordingEntry::Kind kind, std::span<const std::uint8_t> bytes);
 /// An entry begins here, by its own checksum or structure; a text only where such an entry follows it.
 bool isSurelyEntry(std::span<const std::uint8_t> bytes);

@@ -8,9 +8,9 @@ namespace palp {
 
 namespace {
 
-constexpr double kLate_s = 0.25;     ///< later than this the host stood still; below, the clocks' own jitter
-constexpr double kInTime_s = 0.02;   ///< from here on reports come at once again
-constexpr double kMostLate_s = 10;   ///< later than this: the board's clock stood still
+constexpr double kLate_s = 0.25;     ///< later than this the host was suspended; below, the clocks' own jitter
+constexpr double kInTime_s = 0.02;   ///< from here on reports come immediately again
+constexpr double kMostLate_s = 10;   ///< later than this: the board's clock was stopped
 constexpr double kClockDrift = 1e-4; ///< of two quartz clocks, at most
 
 } // namespace
@@ -34,7 +34,7 @@ void ReplayClock::follow(std::uint32_t deviceClock_us, double hostTime_s) {
   deviceClock_us_ = deviceClock_us;
   if (step_us >= 0) device_s_ += 1e-6 * step_us;
   const double seen_s = hostTime_s - device_s_;
-  if (step_us < 0 || seen_s - offset_s_ > kMostLate_s) { // the first, a board that began anew, or its clock stood
+  if (step_us < 0 || seen_s - offset_s_ > kMostLate_s) { // the first, a board that restarted, or its clock was stopped
     offset_s_ = seen_s;
     late_s_ = 0;
     return;

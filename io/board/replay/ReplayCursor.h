@@ -35,10 +35,10 @@ struct ReplayPlace {
 /// Goes through a recording report by report; host times are those of ReplayClock.
 class ReplayCursor {
 public:
-  /// At the begin. Throws Error where the file is no recording.
+  /// At the begin. Throws Error where the file is not a recording.
   explicit ReplayCursor(const std::filesystem::path& path);
 
-  /// The next report, with what lies before it taken into here(); null at the end. Its bytes may be taken away.
+  /// The next report, with what lies before it taken into here(); null at the end. Its bytes may be moved from.
   [[nodiscard]] RecordingEntry* report();
   /// Goes behind it.
   void pass();

@@ -12,7 +12,7 @@ class ReplayIndex {
 public:
   explicit ReplayIndex(const std::filesystem::path& path);
 
-  /// Reads so many reports more, less at the end.
+  /// Reads `reports` more reports, fewer at the end.
   void measure(std::size_t reports);
   [[nodiscard]] bool complete() const { return complete_; }
   /// Host time of the first report; 0 where there is none.
@@ -28,13 +28,13 @@ public:
   /// Those read so far.
   [[nodiscard]] std::vector<ReplayMark> marks() const;
   [[nodiscard]] std::size_t markCount() const { return marks_.size(); }
-  /// Bytes that are no entry, so far.
+  /// Bytes outside of entries, so far.
   [[nodiscard]] std::uint64_t spoiltBytes() const { return spoilt_; }
   [[nodiscard]] bool cutOff() const { return cutOff_; }
 
   /// The last place at which all reports so far were before this time; that many places earlier.
   [[nodiscard]] const ReplayPlace& before(double hostTime_s, std::size_t earlier = 0) const;
-  /// The last place with at most so many reports before it.
+  /// The last place with at most `reports` reports before it.
   [[nodiscard]] const ReplayPlace& before(std::size_t reports) const;
   [[nodiscard]] const ReplayPlace& begin() const { return places_.front(); }
 

@@ -1,6 +1,5 @@
 #include "app/study/ChildProcess.h"
 
-#include "app/study/reports/scenes/WindowCosts.h"
 #include "io/AtomicFile.h"
 #include "model/base/Error.h"
 
@@ -51,25 +50,6 @@ TEST(ChildProcess, HoldsItsOwnMemoryAndNotThatOfItsParent) {
   const ChildRun run = shell("sleep 0.1");
   EXPECT_GT(run.peak_MB, 0);
   EXPECT_LT(run.peak_MB, 100) << ours.size() << " bytes are its parent's";
-}
-
-TEST(WindowStep, TellsWhatShouldNotHaveBeen) {
-  WindowStep step;
-  step.event = "another load";
-  step.showsMesh = step.showsSolution = true;
-  step.runs = {0, 0, 1};
-  EXPECT_EQ(step.fault(), "");
-  step.runs = {0, 0, 2};
-  EXPECT_EQ(step.fault(), "runs of solve: got 2, expected at most 1");
-  step.runs = {0, 0, 1};
-  step.event = "left alone";
-  EXPECT_EQ(step.fault(), "runs of solve: got 1, expected at most 0");
-  step.event = "opened";
-  step.showsSolution = false;
-  EXPECT_EQ(step.fault(), "runs of solve: got 1, expected at most 0");
-  step.runs = {};
-  step.hiddenPictures = 4;
-  EXPECT_EQ(step.fault(), "4 pictures drawn while hidden");
 }
 
 } // namespace

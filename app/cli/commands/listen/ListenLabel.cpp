@@ -57,7 +57,7 @@ std::string LabelledMean::doubt() const {
     return "the load moved while it was averaged (" + moved + "); hold it still";
   if (const std::string other = mean_.onAnotherArea(); !other.empty()) return other;
   DecodedForces reads = last_;
-  if (const Eigen::Vector3d mean_N = mean_.said_N(); mean_N.allFinite()) reads.forces_N = mean_N;
+  if (const Eigen::Vector3d mean_N = mean_.predicted_N(); mean_N.allFinite()) reads.forces_N = mean_N;
   return labelAgainstReading(touch_.load.force_N, reads, touch_.load.area, decoder_);
 }
 

@@ -8,7 +8,7 @@ constexpr double kPaceOver_s = 10;       // that its pace is taken from
 constexpr double kDriftGap_s = 3;        // without frames, after which a drift is looked for anew
 constexpr double kDriftInterval_s = 0.5; // between two looks at what the drift reads as
 constexpr double kDriftShare = 0.01;     // of the force range, from which a tare is suggested
-constexpr double kSteadier = 0.7;        // of the pace that is steady: what went on is called steady from there
+constexpr double kSteadier = 0.7;        // of the steady pace: a drift below is steady from there
 
 } // namespace
 
@@ -34,7 +34,7 @@ void DriftWatch::judge(const LiveFrame& live, const ForceDecoder* decoder, doubl
   judgePace(live.frame.time_s, *decoder, status);
 }
 
-/// What goes on so fast that a tare of now would be wanted again within a minute is waited for.
+/// Waits while the drift is so fast that a tare now would be needed again within a minute.
 void DriftWatch::judgePace(double time_s, const ForceDecoder& decoder, LiveStatus& status) {
   status.driftRate_N_min = 0;
   const bool wentOn = std::exchange(status.driftsOn, false);

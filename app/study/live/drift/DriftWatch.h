@@ -10,7 +10,7 @@
 
 namespace palp {
 
-/// Judges the drift of the sensor at rest: what it reads as, how fast that goes on, and whether a tare would help.
+/// Judges the drift of the sensor at rest: the force it reads as, its pace, and whether a tare would help.
 class DriftWatch {
 public:
   /// Takes a frame at a time of the host's clock, and twice a second writes what is known of the drift to the status. A
@@ -18,7 +18,7 @@ public:
   void judge(const LiveFrame& live, const ForceDecoder* decoder, double now_s, LiveStatus& status);
   /// What follows is of another place of the recording.
   void restart() { monitor_.restart(); }
-  /// What is at rest was tared: the pace before says nothing.
+  /// The sensor was tared: the pace before is discarded.
   void forgetPace() { seen_.clear(); }
   /// Another network decodes: nothing is known.
   void forget(LiveStatus& status);

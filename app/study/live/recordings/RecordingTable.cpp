@@ -3,6 +3,7 @@
 #include "app/study/live/LiveSession.h"
 #include "app/study/live/send/ForceSender.h"
 #include "io/AtomicFile.h"
+#include "io/CsvText.h"
 #include "io/board/RecordingReader.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -18,18 +19,17 @@ namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(50);
 
-std::string quotedCell(const std::string& text) {
-  if (text.empty()) return {};
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-  return result + '"';
+/// A field in quotes, on one line; empty for an empty text.
+std::string textField(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? text : quotedCsvField(text);
 }
 
 /// The lines of one recording; used by the session's thread alone until the session has ended.
 class FrameTable {
 public:
   FrameTable(const RecordingTableRequest& request, double startedUnix_s)
-      : file_(request.table, request.force), out_(file_.beside(), std::ios::binary), startedUnix_s_(startedUnix_s),
+      : file_(request.table, request.force), out_(file_.temporary(), std::ios::binary), startedUnix_s_(startedUnix_s),
         forces_(request.decoder ? request.decoder->outputs() / 3 : 1) {
     out_ << request.head;
   }
@@ -55,8 +55,8 @@ public:
     if (live.frame.temperature_degC) line += text(*live.frame.temperature_degC);
     line += ',';
     if (forces.misfit) line += text(*forces.misfit);
-    line += ',' + quotedCell(live.mark == mark_ ? std::string() : live.mark) + ',' +
-            quotedCell(forces.valid ? forces.doubt : forces.reason);
+    line += ',' + textField(live.mark == mark_ ? std::string() : live.mark) + ',' +
+            textField(forces.valid ? forces.doubt : forces.reason);
     mark_ = live.mark;
     for (Eigen::Index row = 0; row < live.frame.state.rows(); ++row)
       for (Eigen::Index column = 0; column < live.frame.state.cols(); ++column) {

@@ -16,7 +16,7 @@ struct RecordingTableRequest {
   std::filesystem::path recording, table;
   std::optional<Decoder> decoder;     ///< none: resistances alone
   std::optional<SensorDesign> design; ///< at rest, for the recording's tare
-  std::string head;                   ///< whole lines before the columns
+  std::string head;                   ///< complete lines before the columns
   bool force = false;                 ///< replaces the table
 };
 

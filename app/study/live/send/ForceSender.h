@@ -29,12 +29,12 @@ public:
   /// `waits`: who gives waits while too many frames are there, as a recording can that is played as fast as it can be
   /// read; then only what the receiver refuses is lost.
   explicit ForceSender(std::unique_ptr<ForceOutlet> outlet, bool waits = false);
-  /// Ends at once; frames that wait are dropped.
+  /// Ends immediately; frames that wait are dropped.
   ~ForceSender();
   ForceSender(const ForceSender&) = delete;
   ForceSender& operator=(const ForceSender&) = delete;
 
-  /// From any thread, with the host's clock since 1970-01-01 UTC, which all receivers are told alike.
+  /// From any thread, with the host's clock since 1970-01-01 UTC, the same for all receivers.
   void give(std::shared_ptr<const LiveFrame> frame, double host_unix_s);
   [[nodiscard]] SenderCounts counts() const;
   /// Waits until all that was given is sent, at most so long; what still waits then is dropped.

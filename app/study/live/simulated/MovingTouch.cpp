@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kForceShare = 0.3; // of the rectangle's side, that the range of the press counts as: it bends less
 constexpr Eigen::Index kDrift = 5;  // rest, and the spline's linear part times the press
-constexpr double kMostPress = 0.8;  // share of the samples' largest, that it presses by itself
+constexpr double kMostPress = 0.8;  // share of the samples' largest, of the automatic motion
 constexpr double kAround_s = 11, kAlong_s = 17; // of the way along x and y
 
 } // namespace
@@ -88,7 +88,7 @@ Eigen::MatrixXd MovingTouch::resistances_ohm(const SimulatedTouch::Truth& truth)
 const Eigen::MatrixXd& MovingTouch::at(double time_s) {
   SimulatedTouch::Truth now = truth(time_s);
   if (const auto held = hand_ ? hand_->held() : std::nullopt; held && held->place_mm) now = *held;
-  now.force_N.head<2>().setZero(); // nothing holds it sideways
+  now.force_N.head<2>().setZero(); // nothing holds it tangentially
   if (hand_) hand_->tell(time_s, now);
   now_ohm_ = resistances_ohm(now);
   return now_ohm_;

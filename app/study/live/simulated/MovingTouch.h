@@ -22,7 +22,7 @@ public:
   /// Row-wires x column-wires [ohm]. A place outside of the samples' rectangle is taken at its border, a press below
   /// zero as none, one beyond twice the samples' as that.
   [[nodiscard]] Eigen::MatrixXd resistances_ohm(const SimulatedTouch::Truth& truth) const;
-  /// Lets a hand hold the touch from now on, and tells it of the touch.
+  /// Lets a hand hold the touch from now on, and gives it the touch.
   void follow(std::shared_ptr<TouchHand> hand) { hand_ = std::move(hand); }
   /// For Board: valid until the next call.
   const Eigen::MatrixXd& at(double time_s);

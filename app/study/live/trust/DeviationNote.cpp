@@ -26,7 +26,7 @@ DeviationNote deviationNote(const Decoder& decoder, const DecodedSensor& sensor)
     return {true, "another design", "the network was trained for another design: its error is unknown"};
   if (sensor.pressedByIndenter && decoder.touches.empty() && !decoder.place)
     return {true, "other touches",
-            "the network was trained on forces over whole areas, an indenter presses here: its error is unknown"};
+            "the network was trained on forces over complete areas, an indenter presses here: its error is unknown"};
   if (calibrated(decoder)) return {false, {}, calibrationSentence(decoder)};
   if (sensor.simulated) return {};
   return {false, "uncalibrated", "the network is not calibrated: the deviation includes noise and training error only"};

@@ -20,7 +20,7 @@ struct DeviationNote {
   std::string sentence; ///< empty where there is nothing to say
 };
 
-/// Says that the network is of another design or of other touches, that it was not calibrated on a board, or what its
+/// Notes that the network is of another design or of other touches, that it was not calibrated on a board, or what its
 /// calibration left.
 DeviationNote deviationNote(const Decoder& decoder, const DecodedSensor& sensor);
 

@@ -67,7 +67,7 @@ Eigen::Matrix3Xd frdDisplacements(const std::string& frd, int nodes) {
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind(" -4  DISP", 0) == 0) {
       inside = true;
-      result = Eigen::Matrix3Xd::Zero(3, nodes); // the last step's stands
+      result = Eigen::Matrix3Xd::Zero(3, nodes); // the last step counts
     } else if (line.rfind(" -3", 0) == 0) {
       inside = false;
     }

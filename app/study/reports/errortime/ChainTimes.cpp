@@ -108,7 +108,7 @@ struct MeshChoice {
   MeshOptions mesh;
 };
 
-std::vector<MeshChoice> meshChoices(const SensorDesign& design, const MeshOptions& asked) {
+std::vector<MeshChoice> meshChoices(const SensorDesign& design, const MeshOptions& requested) {
   std::vector<MeshChoice> choices(4);
   choices[0].name = "--mapped 10x10x5";
   choices[0].mesh.mapped = {10, 10, 5};
@@ -117,8 +117,8 @@ std::vector<MeshChoice> meshChoices(const SensorDesign& design, const MeshOption
   choices[2].mesh.meshSize_mm = 12 * meshShare(design);
   choices[2].name = "--mesh-size " + text(*choices[2].mesh.meshSize_mm);
   choices[3].name = "default";
-  choices[3].mesh = asked;
-  if (asked.mapped) choices.erase(choices.begin() + 1, choices.begin() + 3); // a quick look
+  choices[3].mesh = requested;
+  if (requested.mapped) choices.erase(choices.begin() + 1, choices.begin() + 3); // a quick look
   return choices;
 }
 

@@ -20,7 +20,7 @@ struct DecoderTimes {
   std::string failed;
 };
 
-/// A way to the force from nothing: mesh and samples, then training.
+/// A chain to the force from scratch: mesh and samples, then training.
 struct ChainTimes {
   std::string mesh;
   int perArea = 0;
@@ -41,7 +41,8 @@ struct SampleTimes {
 
 std::vector<DecoderTimes> decoderTimes(const ReportRequest& request, const TwoSets& sets, StageLog& stages,
                                        const ReportProgress& progress, const std::stop_token& stop);
-/// Seconds of the leave-one-out errors of so many spreads at once, from the clean displacements of the centre row-wire.
+/// Seconds of the leave-one-out errors of kLeaveOneOutSpreads spreads together, from the clean displacements of the
+/// centre row-wire.
 inline constexpr int kLeaveOneOutSpreads = 40;
 Timing leaveOneOutTimes(const ReportRequest& request, const TwoSets& sets, const std::stop_token& stop);
 /// Size of the mesh whose samples chains are tested on, for the paper's block (MeshShare.h).

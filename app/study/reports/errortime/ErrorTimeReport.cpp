@@ -1,9 +1,7 @@
 #include "app/study/reports/errortime/ErrorTimeReport.h"
 
-#include "app/study/reports/Csv.h"
 #include "app/study/reports/MeshShare.h"
-#include "app/study/reports/ReportPage.h"
-#include "app/study/reports/ReportText.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/errortime/ChainTimes.h"
 #include "app/study/reports/errortime/SolverTimes.h"
 #include "app/study/reports/errortime/TouchTimes.h"
@@ -41,20 +39,20 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 /// Writes the report section by section.
-class ErrorTimeWriter {
+class ErrorTimeWriter : ReportWriter {
 public:
   ErrorTimeWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), progress_(std::move(progress)), stop_(std::move(stop)) {}
+      : ReportWriter(request, std::move(progress), std::move(stop), "error-time",
+                     {"what", "way", "case", "error_of", "error_percent", "seconds", "seconds_each", "dof", "factor_MB",
+                      "process_MB"}) {}
 
   std::optional<ReportContent> run() {
-    content_.title = words_("title");
     if (!solver()) return {};
     if (!addTouchTimes(request_, quick_, partOf(progress_, 0.35, 0.15), stop_, content_, csv_)) return {};
     decoding();
     if (stop_.stop_requested()) return {};
     use();
-    content_.csv = csv_.text();
-    return std::move(content_);
+    return finished();
   }
 
 private:
@@ -67,9 +65,8 @@ private:
       samples();
       chain();
     } catch (const Error& refused) {
-      const std::string why = std::string("There are no samples to decode: ") + refused.what();
-      content_.parts.push_back(ReportWords{why});
-      content_.warnings.push_back(why);
+      content_.warnings.push_back(words_("no samples", {{"why", refused.what()}}));
+      add(ReportWords{content_.warnings.back()});
     }
   }
 
@@ -79,21 +76,21 @@ private:
         solverTimes(request_.design, quick_, repeats_, request_.threads, partOf(progress_, 0, 0.35), stop_);
     if (!found) return false;
     solver_ = *found;
-    content_.parts.push_back(ReportHeading{words_("solver heading")});
+    heading("solver heading");
     std::string words = words_("reference");
     for (const JudgedLoad& load : solver_.loads)
-      words += " " + (load.reference_mm.size() == 0
-                          ? words_("load without reference", {{"load", load.name}})
-                          : words_("load", {{"load", load.name},
-                                            {"order", shortNumber(load.order)},
-                                            {"uncertainty", shortNumber(100 * load.uncertainty)}}));
-    content_.parts.push_back(ReportWords{words + " " + words_("times", {{"repeats", std::to_string(repeats_)}})});
+      words +=
+          " " +
+          (load.reference_mm.size() == 0
+               ? words_("load without reference", {{"load", load.name}})
+               : words_("load", {{"load", load.name}, {"order", load.order}, {"uncertainty", 100 * load.uncertainty}}));
+    add(ReportWords{words + " " + words_("times", {{"repeats", repeats_}})});
     for (std::size_t l = 0; l < solver_.loads.size(); ++l) solverChart(l);
     solverTable();
     publishedTable();
     if (!solver_.deck.empty()) {
       content_.files.push_back({"calculix-mapped.inp", solver_.deck});
-      content_.parts.push_back(ReportWords{words_("calculix")});
+      paragraph("calculix");
     }
     phases();
     return true;
@@ -107,13 +104,8 @@ private:
   }
 
   void solverChart(std::size_t l) {
-    ReportChart chart{.file = "solver_" + std::to_string(l),
-                      .caption = words_("slopes"),
-                      .title = solver_.loads[l].name,
-                      .xLabel = "wall time from scratch [s]",
-                      .yLabel = "error of electrode displacements [%]",
-                      .logX = true,
-                      .logY = true};
+    ReportChart chart = words_.chart("solver_" + std::to_string(l), "solver chart", {{"load", solver_.loads[l].name}});
+    chart.logX = chart.logY = true;
     for (const std::string& family : families()) {
       ReportCurve curve{.name = family};
       std::vector<const MeshTimes*> meshes;
@@ -128,15 +120,11 @@ private:
       chart.caption += (chart.curves.empty() ? " " : "; ") + family + " " + shortNumber(slope(curve.x, curve.y));
       chart.curves.push_back(std::move(curve));
     }
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(chart));
   }
 
   void solverTable() {
-    ReportTable table{words_("meshes caption"),
-                      {"mesh", "elements", "unknowns", "factor [MB]", "process [MB]", "to the first solution [s]",
-                       "each further load [s]", "errors [%]"},
-                      {},
-                      {}};
+    ReportTable table = words_.table("meshes table");
     for (const MeshTimes& mesh : solver_.meshes) {
       std::string errors;
       for (std::size_t l = 0; l < mesh.errors.size(); ++l) {
@@ -146,18 +134,17 @@ private:
                   100 * mesh.errors[l], mesh.total_s(), mesh.loadSeconds[l], mesh.dof, mesh.factor_MB,
                   mesh.process_MB});
       }
-      table.rows.push_back({mesh.mesh, std::to_string(mesh.elements), std::to_string(mesh.dof),
-                            shortNumber(mesh.factor_MB), shortNumber(mesh.process_MB), shortNumber(mesh.total_s()),
-                            spread(mesh.solving), mesh.failed.empty() ? errors : "failed: " + mesh.failed});
-      table.marks.push_back(mesh.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
+      table.add({mesh.mesh, mesh.elements, mesh.dof, mesh.factor_MB, mesh.process_MB, mesh.total_s(),
+                 spread(mesh.solving), mesh.failed.empty() ? errors : "failed: " + mesh.failed},
+                mesh.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
   }
 
   /// Against another program's converged solutions, where they apply.
   void publishedTable() {
     if (solver_.published.empty()) return;
-    ReportTable table{words_("published caption"), {"mesh", "to the first solution [s]"}, {}, {}};
+    ReportTable table = words_.table("published table");
     for (const PublishedSolution& published : solver_.published)
       table.heads.push_back("area " + std::to_string(published.area) + ", (" + shortNumber(published.force_N.x()) +
                             ", " + shortNumber(published.force_N.y()) + ", " + shortNumber(published.force_N.z()) +
@@ -172,18 +159,14 @@ private:
       }
       table.rows.push_back(std::move(cells));
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
   }
 
   void phases() {
-    ReportTable table{
-        words_("phases caption", {{"repeats", std::to_string(repeats_)}}),
-        {"mesh", "meshing", "pattern and ordering", "assembly and factorisation at rest", "nonlinear solve"},
-        {},
-        {}};
+    ReportTable table = words_.table("phases table", {{"repeats", repeats_}});
     for (const MeshTimes& mesh : solver_.meshes) {
       if (mesh.pattern.seconds.empty()) continue; // CalculiX does not report its phases
-      table.rows.push_back(
+      table.add(
           {mesh.mesh, spread(mesh.meshing), spread(mesh.pattern), spread(mesh.factorisation), spread(mesh.solving)});
       for (const auto& [phase, timing] :
            {std::pair{"meshing", &mesh.meshing}, std::pair{"pattern", &mesh.pattern},
@@ -192,100 +175,78 @@ private:
           csv_.add({"phase", mesh.family + ", " + mesh.mesh, phase, "", "", seconds, "", mesh.dof, mesh.factor_MB,
                     mesh.process_MB});
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
   }
 
   void networks(const TwoSets& sets) {
-    content_.parts.push_back(ReportHeading{words_("decoders heading")});
-    content_.parts.push_back(ReportWords{words_("decoders", {{"samples", std::to_string(sets.training.size())}})});
+    heading("decoders heading");
+    paragraph("decoders", {{"samples", sets.training.size()}});
     decoders_ = decoderTimes(request_, sets, content_.stages, partOf(progress_, 0.55, 0.2), stop_);
     decoderTable();
     leaveOneOut(sets);
-    decoderChart(
-        {.file = "training", .caption = words_("training caption"), .title = "Training", .xLabel = "training [s]"},
-        [](const DecoderTimes& d) { return d.training.median(); });
-    decoderChart({.file = "prediction",
-                  .caption = words_("prediction caption"),
-                  .title = "Prediction",
-                  .xLabel = "prediction [us per sample]"},
-                 [](const DecoderTimes& d) { return d.prediction.median(); });
+    decoderChart("training", [](const DecoderTimes& d) { return d.training.median(); });
+    decoderChart("prediction", [](const DecoderTimes& d) { return d.prediction.median(); });
   }
 
   void decoderTable() {
-    ReportTable table{.caption = words_("decoder caption"),
-                      .heads = {"decoder", "input", "error [%]", "training [s]", "prediction [us per sample]"}};
+    ReportTable table = words_.table("decoder table");
     for (const DecoderTimes& d : decoders_) {
-      table.rows.push_back({d.what, d.input,
-                            d.failed.empty() ? shortNumber(d.error_percentOfRange) : "failed: " + d.failed,
-                            spread(d.training), spread(d.prediction)});
-      table.marks.push_back(d.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
+      table.add({d.what, d.input, d.failed.empty() ? shortNumber(d.error_percentOfRange) : "failed: " + d.failed,
+                 spread(d.training), spread(d.prediction)},
+                d.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
       if (!d.failed.empty()) continue;
       for (std::size_t i = 0; i < d.training.seconds.size(); ++i)
         csv_.add({"decoder", d.what, d.input, "force [% of range]", d.error_percentOfRange, d.training.seconds[i],
                   d.prediction.seconds[i] * 1e-6, "", "", ""});
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
   }
 
   void leaveOneOut(const TwoSets& sets) {
     const Timing leaving = leaveOneOutTimes(request_, sets, stop_);
-    content_.parts.emplace_back(ReportWords{words_("leave-one-out", {{"spreads", std::to_string(kLeaveOneOutSpreads)},
-                                                                     {"samples", std::to_string(sets.training.size())},
-                                                                     {"seconds", spread(leaving)}})});
+    paragraph("leave-one-out",
+              {{"spreads", kLeaveOneOutSpreads}, {"samples", sets.training.size()}, {"seconds", spread(leaving)}});
     for (const double seconds : leaving.seconds)
       csv_.add({"leave-one-out", std::to_string(kLeaveOneOutSpreads) + " spreads", std::to_string(sets.training.size()),
                 "", "", seconds, seconds / kLeaveOneOutSpreads, "", "", ""});
   }
 
   /// Error of the decoders against one of their times, a cloud an input.
-  void decoderChart(ReportChart chart, double (*time)(const DecoderTimes&)) {
-    chart.yLabel = "error [% of range]";
+  void decoderChart(const std::string& time, double (*secondsOfIt)(const DecoderTimes&)) {
+    ReportChart chart = words_.chart(time, time + " chart");
     chart.logX = chart.logY = true;
     for (const DecoderTimes& d : decoders_) {
       if (!d.failed.empty()) continue;
       if (chart.curves.empty() || chart.curves.back().name != d.input)
         chart.curves.push_back({.name = d.input, .style = ReportCurve::Style::Points});
-      chart.curves.back().x.push_back(time(d));
+      chart.curves.back().x.push_back(secondsOfIt(d));
       chart.curves.back().y.push_back(d.error_percentOfRange);
     }
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(chart));
   }
 
   void samples() {
-    content_.parts.push_back(ReportHeading{words_("samples heading")});
-    ReportTable table{
-        words_("samples caption"), {"method", "samples", "seconds", "samples per second", "relative error"}, {}, {}};
+    heading("samples heading");
+    ReportTable table = words_.table("samples table");
     for (const SampleTimes& s : sampleTimes(request_, content_.stages, partOf(progress_, 0.75, 0.1), stop_)) {
-      table.rows.push_back({s.what, std::to_string(s.samples), shortNumber(s.seconds),
-                            shortNumber(s.samples / s.seconds), shortNumber(s.error)});
+      table.add({s.what, s.samples, s.seconds, s.samples / s.seconds, s.error});
       csv_.add({"samples", s.what, std::to_string(s.samples), "electrode displacements, relative", s.error, s.seconds,
                 s.seconds / s.samples, "", "", ""});
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
   }
 
   void chain() {
-    content_.parts.push_back(ReportHeading{words_("chain heading")});
-    content_.parts.push_back(
-        ReportWords{words_("chain", {{"size", shortNumber(kReferenceSize_mm * meshShare(request_.design))}})});
+    heading("chain heading");
+    paragraph("chain", {{"size", kReferenceSize_mm * meshShare(request_.design)}});
     chains_ = chainTimes(request_, content_.stages, partOf(progress_, 0.85, 0.15), stop_);
-    ReportTable table{words_("chain caption"),
-                      {"mesh", "samples per area", "mesh, factorisation [s]", "samples [s]", "training [s]",
-                       "total [s]", "force error [% of range]"},
-                      {},
-                      {}};
-    ReportChart chart{.file = "chain",
-                      .caption = words_("chain chart"),
-                      .title = "Complete chain",
-                      .xLabel = "seconds from scratch",
-                      .yLabel = "force error [% of range]",
-                      .logX = true,
-                      .logY = true};
+    ReportTable table = words_.table("chain table");
+    ReportChart chart = words_.chart("chain", "chain chart");
+    chart.logX = chart.logY = true;
     for (const ChainTimes& c : chains_) {
-      table.rows.push_back({c.mesh, std::to_string(c.perArea), shortNumber(c.prepare_s), shortNumber(c.sample_s),
-                            shortNumber(c.train_s), shortNumber(c.total_s()),
-                            c.failed.empty() ? shortNumber(c.error_percentOfRange) : "failed: " + c.failed});
-      table.marks.push_back(c.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
+      table.add({c.mesh, c.perArea, c.prepare_s, c.sample_s, c.train_s, c.total_s(),
+                 c.failed.empty() ? shortNumber(c.error_percentOfRange) : "failed: " + c.failed},
+                c.failed.empty() ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
       if (!c.failed.empty()) continue;
       csv_.add({"chain", c.mesh, std::to_string(c.perArea), "force [% of range]", c.error_percentOfRange, c.total_s(),
                 c.sample_s, "", "", ""});
@@ -293,18 +254,14 @@ private:
       chart.curves.back().x.push_back(c.total_s());
       chart.curves.back().y.push_back(c.error_percentOfRange);
     }
-    content_.parts.emplace_back(std::move(table));
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(table));
+    add(std::move(chart));
   }
 
   /// The fastest that reaches an error, for several errors.
   void use() {
-    content_.parts.push_back(ReportHeading{words_("use heading")});
-    ReportTable table{
-        words_("use caption"),
-        {"largest error", "mesh", "seconds to the first solution", "chain to the force", "seconds from scratch"},
-        {},
-        {}};
+    heading("use heading");
+    ReportTable table = words_.table("use table");
     for (const double percent : {10.0, 5.0, 2.0, 1.0, 0.5, 0.1}) {
       const MeshTimes* mesh = nullptr;
       for (const MeshTimes& m : solver_.meshes)
@@ -315,33 +272,25 @@ private:
       for (const ChainTimes& c : chains_)
         if (c.failed.empty() && c.error_percentOfRange <= percent && (!fastest || c.total_s() < fastest->total_s()))
           fastest = &c;
-      table.rows.push_back(
-          {shortNumber(percent) + " %", mesh ? mesh->mesh : "none measured", mesh ? shortNumber(mesh->total_s()) : "-",
-           fastest ? fastest->mesh + ", " + std::to_string(fastest->perArea) + " per area" : "none measured",
-           fastest ? shortNumber(fastest->total_s()) : "-"});
+      table.add({shortNumber(percent) + " %", mesh ? mesh->mesh : "none measured",
+                 mesh ? shortNumber(mesh->total_s()) : "-",
+                 fastest ? fastest->mesh + ", " + std::to_string(fastest->perArea) + " per area" : "none measured",
+                 fastest ? shortNumber(fastest->total_s()) : "-"});
       if (percent == 1.0 && mesh)
-        content_.summary += words_("displacement summary", {{"mesh", mesh->mesh},
-                                                            {"seconds", shortNumber(mesh->total_s())},
-                                                            {"error", shortNumber(100 * rms(mesh->errors))}}) +
-                            " ";
+        content_.summary +=
+            words_("displacement summary",
+                   {{"mesh", mesh->mesh}, {"seconds", mesh->total_s()}, {"error", 100 * rms(mesh->errors)}}) +
+            " ";
       if (percent == 1.0 && fastest)
-        content_.summary += words_("force summary", {{"mesh", fastest->mesh},
-                                                     {"samples", std::to_string(fastest->perArea)},
-                                                     {"seconds", shortNumber(fastest->total_s())}});
+        content_.summary += words_(
+            "force summary", {{"mesh", fastest->mesh}, {"samples", fastest->perArea}, {"seconds", fastest->total_s()}});
     }
-    content_.parts.emplace_back(std::move(table));
+    add(std::move(table));
     if (content_.summary.empty()) content_.summary = words_("no summary");
   }
 
-  const ReportText words_{"error-time"};
-  const ReportRequest& request_;
-  ReportProgress progress_;
-  std::stop_token stop_;
-  ReportContent content_;
   bool quick_ = request_.mesh.mapped.has_value();
   int repeats_ = 3;
-  Csv csv_{{"what", "way", "case", "error_of", "error_percent", "seconds", "seconds_each", "dof", "factor_MB",
-            "process_MB"}};
   SolverTimes solver_;
   std::vector<DecoderTimes> decoders_;
   std::vector<ChainTimes> chains_;

@@ -6,8 +6,8 @@
 
 namespace palp {
 
-/// Error against run time: the solver by mesh and element, networks, samples, and the whole chain from nothing to the
-/// force; and what to use for an error wanted.
+/// Error against run time: the solver by mesh and element, networks, samples, and the complete chain from scratch to
+/// the force; and what to use for an error wanted.
 std::optional<ReportContent> errorTimeReport(const ReportRequest& request, const ReportProgress& progress,
                                              std::stop_token stop);
 

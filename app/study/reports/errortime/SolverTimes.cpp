@@ -123,7 +123,7 @@ private:
       if (!solution.converged) times.failed = load.name + ": " + solution.stopReason;
       if (!first) continue;
       displacements_mm.push_back(solution.converged ? problem->electrodes(solution.state()).upper_mm
-                                                    : Eigen::Matrix3Xd()); // a part of the load says nothing of all
+                                                    : Eigen::Matrix3Xd()); // not of a part of the load
     }
     if (first) times.loadSeconds = loadSeconds;
     for (std::size_t l = 0; l < loads.size(); ++l)
@@ -158,7 +158,7 @@ double relativeTo(const Eigen::Matrix3Xd& reference_mm, const Eigen::Matrix3Xd& 
   return (found_mm - reference_mm).norm() / reference_mm.norm();
 }
 
-/// CalculiX on a mesh under every load, its whole process timed (the first load `repeats` times, the others once);
+/// CalculiX on a mesh under every load, its complete process timed (the first load `repeats` times, the others once);
 /// meshed by us.
 MeshTimes calculixTimes(const std::string& program, const SensorDesign& design, const MeshOptions& options,
                         const std::vector<JudgedLoad>& loads, int repeats, int threads, const std::stop_token& stop) {

@@ -1,6 +1,6 @@
 #include "app/study/reports/errortime/TouchTimes.h"
 
-#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportText.h"
 #include "app/study/reports/Timing.h"
 #include "app/study/reports/errortime/CalculixRun.h"
 #include "app/study/reports/errortime/Extrapolation.h"
@@ -23,27 +23,26 @@ struct Touch {
   LoadCase load;
 };
 
-/// One mesh and what it answers.
+/// One mesh and its results.
 struct TouchRun {
-  std::string way, mesh;
+  std::string program, mesh;
   int dof = 0, elements = 0;
-  double seconds = 0; ///< from nothing to the answer
+  double seconds = 0; ///< from scratch to the result
   Eigen::VectorXd force_N, electrodes_mm;
   double forceError = 0, electrodeError = 0; ///< relative
   std::string failed;
 };
 
 /// A sphere as large as the block is high, in its middle.
-std::vector<Touch> judgedTouches(const SensorDesign& design, bool quick) {
+std::vector<Touch> testedTouches(const ReportText& words, const SensorDesign& design, bool quick) {
   const double h = design.block_mm.z();
   const Eigen::Vector2d middle = design.block_mm.head<2>() / 2;
-  const Eigen::Vector2d aside = {0.04 * h, 0};
-  const std::string sphere = "sphere of " + shortNumber(h) + " mm, " + shortNumber(0.08 * h) + " mm down";
-  Touch plain{sphere + ", no friction", {}};
+  const Eigen::Vector2d shift_mm = {0.04 * h, 0};
+  Touch plain{words("sphere", {{"radius", h}, {"depth", 0.08 * h}}), {}};
   plain.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0, Motion{0.08 * h, {0, 0}}}};
   if (quick) return {plain};
-  Touch rough{sphere + ", " + shortNumber(aside.x()) + " mm shift, friction 0.5", {}};
-  rough.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0.5, Motion{0.08 * h, aside}}};
+  Touch rough{words("sliding sphere", {{"radius", h}, {"depth", 0.08 * h}, {"shift", shift_mm.x()}}), {}};
+  rough.load.indenters = {{IndenterShape::Sphere, h, 0, middle, 0.5, Motion{0.08 * h, shift_mm}}};
   return {plain, rough};
 }
 
@@ -57,7 +56,7 @@ TouchRun ourTouch(const SensorDesign& design, const Touch& touch, double factor,
                   const std::stop_token& stop) {
   TouchRun run;
   const MeshOptions options = sized(design, touch.load, factor);
-  run.way = "Palp";
+  run.program = "Palp";
   run.mesh = "--mesh-size " + shortNumber(*options.meshSize_mm) + (factor == 1 ? " (default)" : "");
   NewtonOptions newton;
   newton.threads = threads;
@@ -79,7 +78,7 @@ TouchRun ourTouch(const SensorDesign& design, const Touch& touch, double factor,
 TouchRun calculixTouch(const std::string& program, const SensorDesign& design, const Touch& touch, MeshOptions options,
                        int threads, const std::stop_token& stop) {
   TouchRun run;
-  run.way = options.mapped ? "CalculiX, C3D8 mapped" : "CalculiX, C3D10 graded";
+  run.program = options.mapped ? "CalculiX, C3D8 mapped" : "CalculiX, C3D10 graded";
   Mesh mesh;
   run.seconds = secondsOf([&] { mesh = sensorMesh(design, options); });
   run.mesh = options.mapped ? "--mapped 20x20x10" : "--mesh-size " + shortNumber(*options.meshSize_mm);
@@ -95,54 +94,46 @@ TouchRun calculixTouch(const std::string& program, const SensorDesign& design, c
   return run;
 }
 
-ReportChart chartOf(const std::vector<TouchRun>& runs, const std::string& file, const std::string& what,
-                    const std::string& touch, double TouchRun::*error) {
-  ReportChart chart{.file = file,
-                    .caption = touch,
-                    .title = "Touch: " + what,
-                    .xLabel = "wall time from scratch [s]",
-                    .yLabel = "error of " + what + " [%]",
-                    .logX = true,
-                    .logY = true};
+ReportChart chartOf(const ReportText& words, const std::vector<TouchRun>& runs, const std::string& file,
+                    const std::string& what, const std::string& touch, double TouchRun::*error) {
+  ReportChart chart = words.chart(file, "chart", {{"touch", touch}, {"what", what}});
+  chart.logX = chart.logY = true;
   for (const TouchRun& run : runs) {
     if (!run.failed.empty()) continue;
-    if (chart.curves.empty() || chart.curves.back().name != run.way) chart.curves.push_back({.name = run.way});
+    if (chart.curves.empty() || chart.curves.back().name != run.program) chart.curves.push_back({.name = run.program});
     chart.curves.back().x.push_back(run.seconds);
     chart.curves.back().y.push_back(100 * (run.*error));
   }
   return chart;
 }
 
-/// What the runs are judged by.
-struct Truth {
+/// What the runs are compared with.
+struct TouchReference {
   Extrapolation force, electrodes;
 };
 
 /// From the last two of our runs; none where one of them failed.
-std::optional<Truth> truthOf(const std::vector<TouchRun>& runs) {
+std::optional<TouchReference> referenceOf(const std::vector<TouchRun>& runs) {
   const TouchRun &coarse = runs[runs.size() - 2], &fine = runs.back();
   if (!coarse.failed.empty() || !fine.failed.empty()) return {};
   const double refinement = std::cbrt(double(fine.dof) / coarse.dof);
-  return Truth{extrapolated(coarse.force_N, fine.force_N, refinement, kTouchOrder),
-               extrapolated(coarse.electrodes_mm, fine.electrodes_mm, refinement, kTouchOrder)};
+  return TouchReference{extrapolated(coarse.force_N, fine.force_N, refinement, kTouchOrder),
+                        extrapolated(coarse.electrodes_mm, fine.electrodes_mm, refinement, kTouchOrder)};
 }
 
-ReportTable tableOf(const Touch& touch, const Truth& truth, const std::vector<TouchRun>& runs) {
-  const Eigen::VectorXd& force_N = truth.force.value;
-  ReportTable table{touch.name + ": force (" + shortNumber(force_N(0)) + ", " + shortNumber(force_N(1)) + ", " +
-                        shortNumber(force_N(2)) + ") N, uncertain by " + shortNumber(100 * truth.force.uncertainty) +
-                        " %; the electrodes' reference is uncertain by " +
-                        shortNumber(100 * truth.electrodes.uncertainty) + " %; errors below these say nothing",
-                    {"way", "mesh", "elements", "unknowns", "seconds", "error of force [%]", "error of electrodes [%]"},
-                    {},
-                    {}};
+ReportTable tableOf(const ReportText& words, const Touch& touch, const TouchReference& reference,
+                    const std::vector<TouchRun>& runs) {
+  const Eigen::VectorXd& force_N = reference.force.value;
+  ReportTable table = words.table("table", {{"touch", touch.name},
+                                            {"force", force_N.head<3>()},
+                                            {"force_error", 100 * reference.force.uncertainty},
+                                            {"electrode_error", 100 * reference.electrodes.uncertainty}});
   for (const TouchRun& run : runs) {
-    const bool answered = run.failed.empty();
-    table.rows.push_back({run.way, run.mesh, std::to_string(run.elements), std::to_string(run.dof),
-                          shortNumber(run.seconds),
-                          answered ? shortNumber(100 * run.forceError) : "failed: " + run.failed,
-                          answered ? shortNumber(100 * run.electrodeError) : "-"});
-    table.marks.push_back(answered ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
+    const bool done = run.failed.empty();
+    table.add({run.program, run.mesh, run.elements, run.dof, run.seconds,
+               done ? shortNumber(100 * run.forceError) : "failed: " + run.failed,
+               done ? shortNumber(100 * run.electrodeError) : "-"},
+              done ? ReportTable::Mark::Plain : ReportTable::Mark::Bad);
   }
   return table;
 }
@@ -161,17 +152,10 @@ bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgres
   const std::vector<double> factors = quick ? std::vector{4.0, 4.0 / kTouchRefinement, 2.0}
                                             : std::vector{2.0, kTouchRefinement, 1.0, 1 / kTouchRefinement};
   const auto program = design.material.poissonRatio < 0.5 ? calculixProgram() : std::nullopt;
-  content.parts.push_back(ReportHeading{"Touches: error of force and electrodes against wall time"});
-  content.parts.push_back(ReportWords{
-      "An indenter under displacement control; its force is the result. Errors against Palp's own results, "
-      "extrapolated "
-      "(Richardson) from its two finest meshes with the order of the error estimate, 1.3. Wall time: meshing and all, "
-      "one run each. " +
-      std::string(program ? "CalculiX (ccx) ran in the same session on the same meshes and decks as palp mesh --format "
-                            "inp writes, its complete process, with as many threads; its contact is a stiff linear "
-                            "pressure over the overlap, and its displacement elements lock where ours do not."
-                          : "CalculiX (ccx) is not installed or cannot take this rubber, so it is not compared.")});
-  const std::vector<Touch> touches = judgedTouches(design, quick);
+  const ReportText words("touch-times");
+  content.parts.emplace_back(ReportHeading{words("heading")});
+  content.parts.emplace_back(ReportWords{words("method", {{"calculix", words(program ? "calculix" : "no calculix")}})});
+  const std::vector<Touch> touches = testedTouches(words, design, quick);
   for (std::size_t t = 0; t < touches.size(); ++t) {
     const Touch& touch = touches[t];
     const ReportProgress own = partOf(progress, static_cast<double>(t) / static_cast<double>(touches.size()),
@@ -179,37 +163,41 @@ bool addTouchTimes(const ReportRequest& request, bool quick, const ReportProgres
     const std::vector<MeshOptions> theirs =
         program ? calculixMeshes(design, touch.load, quick) : std::vector<MeshOptions>{};
     std::vector<TouchRun> runs;
-    const auto tell = [&](const std::string& what) {
+    const auto report = [&](const std::string& what) {
       own(static_cast<double>(runs.size()) / static_cast<double>(factors.size() + theirs.size()), what);
     };
     for (const double factor : factors) {
-      tell(touch.name);
+      report(touch.name);
       runs.push_back(ourTouch(design, touch, factor, request.threads, stop));
       if (stop.stop_requested()) return false;
     }
-    const std::optional<Truth> truth = truthOf(runs);
-    if (!truth) {
-      content.parts.push_back(ReportWords{touch.name + ": no answer to judge by; " + runs.back().failed});
+    const std::optional<TouchReference> reference = referenceOf(runs);
+    if (!reference) {
+      content.parts.emplace_back(
+          ReportWords{words("no reference", {{"touch", touch.name}, {"why", runs.back().failed}})});
       continue;
     }
     for (const MeshOptions& options : theirs) {
-      tell("CalculiX, " + touch.name);
+      report("CalculiX, " + touch.name);
       runs.push_back(calculixTouch(*program, design, touch, options, request.threads, stop));
       if (stop.stop_requested()) return false;
     }
     for (TouchRun& run : runs) {
       if (!run.failed.empty()) continue;
-      run.forceError = (run.force_N - truth->force.value).norm() / truth->force.value.norm();
-      run.electrodeError = (run.electrodes_mm - truth->electrodes.value).norm() / truth->electrodes.value.norm();
+      run.forceError = (run.force_N - reference->force.value).norm() / reference->force.value.norm();
+      run.electrodeError =
+          (run.electrodes_mm - reference->electrodes.value).norm() / reference->electrodes.value.norm();
       for (const auto& [what, error] :
            {std::pair{"force of the touch", run.forceError}, std::pair{"electrode displacements", run.electrodeError}})
-        csv.add({"touch", run.way + ", " + run.mesh, touch.name, what, 100 * error, run.seconds, "", run.dof, "", ""});
+        csv.add(
+            {"touch", run.program + ", " + run.mesh, touch.name, what, 100 * error, run.seconds, "", run.dof, "", ""});
     }
-    content.parts.emplace_back(tableOf(touch, *truth, runs));
+    content.parts.emplace_back(tableOf(words, touch, *reference, runs));
     const std::string number = std::to_string(t);
-    content.parts.emplace_back(chartOf(runs, "touch_force_" + number, "force", touch.name, &TouchRun::forceError));
     content.parts.emplace_back(
-        chartOf(runs, "touch_electrodes_" + number, "electrodes", touch.name, &TouchRun::electrodeError));
+        chartOf(words, runs, "touch_force_" + number, "force", touch.name, &TouchRun::forceError));
+    content.parts.emplace_back(
+        chartOf(words, runs, "touch_electrodes_" + number, "electrodes", touch.name, &TouchRun::electrodeError));
   }
   return true;
 }

@@ -29,7 +29,7 @@ LoadIncrement derivative(const LoadIncrement& above, const LoadIncrement& below,
   return result;
 }
 
-/// Where the probe stands in the list of all electrodes.
+/// Index of the probe in the list of all electrodes.
 struct Place {
   Eigen::Index first;
   Eigen::Index count;
@@ -44,7 +44,7 @@ ElectrodeDisplacements read(const SensorDesign& layout, const LoadIncrement& sta
   return result;
 }
 
-/// Tells progress after each solve. The mesh and its factorisation, before the first, take as long as some of them.
+/// Reports progress after each solve. The mesh and its factorisation, before the first, take as long as some of them.
 class SolveCount {
 public:
   SolveCount(const ReportProgress& progress, int solves) : progress_(progress), solves_(solves) { tell("the solves"); }

@@ -123,7 +123,7 @@ private:
   const LayoutGoal& goal_;
   const MakerLimits& limits_;
   std::stop_token stop_;
-  std::function<void(int)> judged_; ///< told how many so far
+  std::function<void(int)> judged_; ///< called with the number so far
   int evaluations_ = 0;
   int left_ = kMostUnderField; ///< of this start
 };
@@ -215,7 +215,7 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
                                                LayoutFreedom freedom, const MakerLimits& limits, std::uint64_t seed,
                                                const std::stop_token& stop, const ReportProgress& progress) {
   const Parameters parameters(design, freedom);
-  // From many places at once one start is enough and random ones are poor; few places deserve more starts.
+  // For many positions together one start is enough and random ones are poor; few positions deserve more starts.
   const int starts = freedom == LayoutFreedom::WireByWire ? 0
                      : design.field()                     ? kRandomStartsUnderField
                                                           : kRandomStarts;
@@ -223,7 +223,7 @@ std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const
   const auto tell = [&](double share, int tried) {
     if (progress) progress((start + share) / (starts + 1), std::to_string(tried) + " layouts tried");
   };
-  // Under the field a start ends after so many layouts; by Eq. (1) when its step is small.
+  // Under the field a start ends after a number of layouts; by Eq. (1) when its step is small.
   Search search(parameters, goal, limits, stop, [&](int tried) {
     if (design.field()) tell(static_cast<double>(tried - before) / kMostUnderField, tried);
   });

@@ -17,7 +17,7 @@ struct MakerLimits {
   double grid_mm = 0.05;     ///< places are multiples of this; goes into 1 mm
   double pitch_mm = 1;       ///< smallest distance between electrodes of a wire
   double clearance_mm = 0.5; ///< smallest height of the upper layer over the lower one
-  double cover_mm = 0.5; ///< thinnest rubber over the upper layer, under the lower one and beside the last electrodes
+  double cover_mm = 0.5; ///< thinnest rubber over the upper layer, under the lower one and next to the last electrodes
 };
 
 /// How freely electrodes move.
@@ -46,8 +46,8 @@ struct LayoutSearchResult {
 
 /// Lowers the goal by pattern search (Hooke and Jeeves, 1961) from the design and from random places; equal seeds give
 /// equal layouts. Under the field layouts are judged on a
-/// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. `progress` is told,
-/// roughly, which share of the search is done. Empty where it was stopped.
+/// coarse quadrature, fewer of them, and electrodes keep as far apart as small spheres need. `progress` gets,
+/// roughly, the share of the search that is done. Returns nullopt if cancelled.
 std::optional<LayoutSearchResult> betterLayout(const SensorDesign& design, const LayoutGoal& goal,
                                                LayoutFreedom freedom, const MakerLimits& limits, std::uint64_t seed,
                                                const std::stop_token& stop, const ReportProgress& progress = {});

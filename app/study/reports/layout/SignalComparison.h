@@ -10,7 +10,7 @@ namespace palp {
 /// d ln R / dF [1/N], row-wires x column-wires for Fx, Fy, Fz; one an area.
 using LogSensitivity = std::vector<std::array<Eigen::MatrixXd, 3>>;
 
-/// One law's signals beside another's, over all readings and areas, for Fx, Fy, Fz.
+/// One law's signals compared with another's, over all readings and areas, for Fx, Fy, Fz.
 struct SignalComparison {
   Eigen::Vector3d factor; ///< root mean square over that of the other
   Eigen::Vector3d correlation;

@@ -37,13 +37,4 @@ const std::array<MapQuantity, 8>& mapQuantities() {
   return all;
 }
 
-const char* const kPairsTouched =
-    "Eq. (1) adds independent pairs of electrodes in a block that conducts everywhere: no sneak paths, no field "
-    "between them. The rubber has no hysteresis, creep or temperature. A board will do worse than these numbers.";
-const char* const kFieldTouched =
-    "Electrodes are spheres of one radius with the dipoles that the field induces in them; the rubber's conductivity "
-    "is constant and the same in all directions, also where it is deformed. No hysteresis, creep or temperature. A "
-    "board "
-    "will do worse than these numbers.";
-
 } // namespace palp

@@ -7,7 +7,7 @@
 
 namespace palp {
 
-/// A quantity of a map: its name for tables and legends, its unit, a name for files, and where it stands.
+/// A quantity of a map: its name for tables and legends, its unit, a name for files, and its values.
 struct MapQuantity {
   std::string name, unit, file;
   const Eigen::MatrixXd& (*of)(const TouchMap&);
@@ -16,9 +16,5 @@ struct MapQuantity {
 
 /// All of them, in the order of the report's table.
 const std::array<MapQuantity, 8>& mapQuantities();
-
-/// What is assumed of touches, by Eq. (1) and under the field.
-extern const char* const kPairsTouched;
-extern const char* const kFieldTouched;
 
 } // namespace palp

@@ -1,9 +1,7 @@
 #include "app/study/reports/map/MapReport.h"
 
 #include "app/study/Median.h"
-#include "app/study/reports/Csv.h"
-#include "app/study/reports/ReportPage.h"
-#include "app/study/reports/ReportText.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/map/MapQuantities.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "model/DesignError.h"
@@ -51,15 +49,15 @@ struct MapOfSize {
   TouchMap map;
 };
 
-class MapWriter {
+class MapWriter : ReportWriter {
 public:
   MapWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), design_(request.design), progress_(std::move(progress)), stop_(std::move(stop)),
-        range_(request.touches.value_or(touchesOf(request.design))) {}
+      : ReportWriter(request, std::move(progress), std::move(stop), "map",
+                     {"what", "size [mm]", "x [mm]", "y [mm]", "value"}),
+        design_(request.design), range_(request.touches.value_or(touchesOf(request.design))) {}
 
   std::optional<ReportContent> run() {
-    ask();
-    content_.title = words_("title");
+    setMap();
     content_.warnings = designWarnings(design_);
     progress(0, "the readings at rest");
     const LinearReadings readings =
@@ -82,17 +80,12 @@ public:
     if (!content_.stages.measure("solve", [&] { return compareWithSolves(problem, *surfaces); })) return {};
     assumed();
     summarise();
-    content_.csv = csv_.text();
-    return std::move(content_);
+    return finished();
   }
 
 private:
-  void progress(double share, const std::string& what) const {
-    if (progress_) progress_(share, what);
-  }
-
-  /// What is asked, but for the size.
-  void ask() {
+  /// All but the size.
+  void setMap() {
     const double step_mm = design_.block_mm.head<2>().minCoeff() / kStepsAcross;
     std::array<int, 2> places{};
     for (Eigen::Index axis = 0; axis < 2; ++axis)
@@ -115,27 +108,24 @@ private:
 
   void introduce(const LinearReadings& readings) {
     const FieldLaw* law = design_.field();
-    content_.parts.push_back(ReportHeading{words_("scope heading")});
-    content_.parts.push_back(ReportWords{words_(
-        "scope", {{"shape", shapeName(range_.shape)},
-                  {"force", text(force_N())},
-                  {"columns", std::to_string(base_.places[0])},
-                  {"rows", std::to_string(base_.places[1])},
-                  {"x0", text(base_.low_mm.x())},
-                  {"y0", text(base_.low_mm.y())},
-                  {"x1", text(base_.high_mm.x())},
-                  {"y1", text(base_.high_mm.y())},
-                  {"readings", std::to_string(readings.gradient_per_mm.rows())},
-                  {"law", law ? words_("by field", {{"readout", kReadouts.name(law->readout)}}) : words_("by pairs")},
-                  {"noise", text(base_.relativeNoise)}})});
-    content_.parts.push_back(ReportWords{words_("quantities")});
+    heading("scope heading");
+    paragraph("scope",
+              {{"shape", shapeName(range_.shape)},
+               {"force", force_N()},
+               {"columns", base_.places[0]},
+               {"rows", base_.places[1]},
+               {"x0", text(base_.low_mm.x())},
+               {"y0", text(base_.low_mm.y())},
+               {"x1", text(base_.high_mm.x())},
+               {"y1", text(base_.high_mm.y())},
+               {"readings", readings.gradient_per_mm.rows()},
+               {"law", law ? words_("by field", {{"readout", kReadouts.name(law->readout)}}) : words_("by pairs")},
+               {"noise", base_.relativeNoise}});
+    paragraph("quantities");
   }
 
   void tables() {
-    ReportTable table{words_("table caption", {{"noise", text(base_.relativeNoise)}, {"force", text(force_N())}}),
-                      {"radius [mm]", "contact radius [mm]"},
-                      {},
-                      {}};
+    ReportTable table = words_.table("deviations", {{"noise", base_.relativeNoise}, {"force", force_N()}});
     for (const MapQuantity& quantity : mapQuantities())
       table.heads.push_back(quantity.name + " [" + quantity.unit + "]");
     for (const MapOfSize& of : maps_) {
@@ -150,8 +140,8 @@ private:
             csv_.add({quantity.name + " [" + quantity.unit + "]", of.size_mm, places(0, i), places(1, i), value});
       }
     }
-    content_.parts.push_back(ReportHeading{words_("table heading")});
-    content_.parts.emplace_back(std::move(table));
+    heading("table heading");
+    add(std::move(table));
   }
 
   void pictures() {
@@ -163,7 +153,7 @@ private:
         picture.caption = words_("map caption", {{"quantity", sentence(quantity.name)},
                                                  {"shape", shapeName(range_.shape)},
                                                  {"size", text(of.size_mm)},
-                                                 {"noise", text(base_.relativeNoise)}});
+                                                 {"noise", base_.relativeNoise}});
         picture.title = words_(
             "map title", {{"quantity", quantity.name}, {"shape", shapeName(range_.shape)}, {"size", text(of.size_mm)}});
         picture.quantity = quantity.name;
@@ -172,10 +162,10 @@ private:
         picture.low_mm = base_.low_mm;
         picture.high_mm = base_.high_mm;
         if (finite(picture.values).empty()) {
-          content_.parts.push_back(ReportWords{words_("no map", {{"title", picture.title}})});
+          paragraph("no map", {{"title", picture.title}});
           continue;
         }
-        content_.parts.emplace_back(std::move(picture));
+        add(std::move(picture));
       }
     }
   }
@@ -196,7 +186,7 @@ private:
     const std::vector<TouchInfluence> linear = surfaces.of(touches, request_.threads, stop_);
     BatchOptions options;
     options.threads = request_.threads;
-    options.relativeTolerance = 1e-4; // far below what is left out
+    options.relativeTolerance = 1e-4; // far below the error of the linear answer
     BatchSolver batch(problem, options);
     const auto resistances = resistancesOf(problem, batch, options, loads);
     if (resistances.empty()) return false;
@@ -222,11 +212,10 @@ private:
   }
 
   void assumed() {
-    content_.parts.push_back(ReportHeading{words_("assumptions heading")});
-    content_.parts.push_back(
-        ReportWords{words_("assumptions", {{"touches", std::to_string(kCheckedTouches)},
-                                           {"percent", shortNumber(100 * nonlinear_)},
-                                           {"law", design_.field() ? kFieldTouched : kPairsTouched}})});
+    add(ReportHeading{common_("assumptions heading")});
+    paragraph("assumptions", {{"touches", kCheckedTouches},
+                              {"percent", 100 * nonlinear_},
+                              {"law", common_(design_.field() ? "touches by the field" : "touches by pairs")}});
   }
 
   void summarise() {
@@ -244,9 +233,9 @@ private:
     content_.figures.emplace_back("left_out_percent", 100 * nonlinear_);
     content_.summary = words_("summary", {{"shape", shapeName(range_.shape)},
                                           {"size", text(middle.size_mm)},
-                                          {"noise", text(base_.relativeNoise)},
+                                          {"noise", base_.relativeNoise},
                                           {"smallest", medianAndWorst(middle.map.smallestForce_N)},
-                                          {"force", text(force_N())},
+                                          {"force", force_N()},
                                           {"free", medianAndWorst(middle.map.slipperyPlace_mm)},
                                           {"sticking", medianAndWorst(middle.map.heldPlace_mm)},
                                           {"apart", medianAndWorst(middle.map.twoPoint_mm)}});
@@ -254,17 +243,11 @@ private:
 
   double force_N() const { return -base_.touch.press()->force_N.z(); }
 
-  const ReportText words_{"map"};
-  const ReportRequest& request_;
   const SensorDesign& design_;
-  ReportProgress progress_;
-  std::stop_token stop_;
   TouchRange range_;
   TouchMapRequest base_; ///< but for the size
   std::vector<MapOfSize> maps_;
   double nonlinear_ = 0;
-  ReportContent content_;
-  Csv csv_{{"what", "size [mm]", "x [mm]", "y [mm]", "value"}};
 };
 
 } // namespace

@@ -14,14 +14,14 @@ namespace palp {
 
 /// What no estimate without a bias and without prior can beat, at each sample's touch.
 struct SampleBounds {
-  std::vector<TouchDeviations> known;       ///< by one who is told the indenter
+  std::vector<TouchDeviations> known;       ///< with known indenter
   std::vector<TouchDeviations> sizeUnknown; ///< by one who has to find its size as well; empty: all are of one size
-  std::vector<TouchDeviations> learned;     ///< of a decoder (learnedBounds), where it is asked for
+  std::vector<TouchDeviations> learned;     ///< of a decoder (learnedBounds), if requested
 };
 
-/// `known` and `sizeUnknown`, by the influence surfaces of the design at rest (TouchMap says what that leaves out), the
-/// contact as large as its force makes it. Empty: stopped. Throws Error where the samples are of no touches or of
-/// another design, and DesignError where no map can be made.
+/// `known` and `sizeUnknown`, by the influence surfaces of the design at rest (TouchMap documents what that leaves
+/// out), the contact as large as its force makes it. Empty: stopped. Throws Error where the samples are of no touches
+/// or of another design, and DesignError where no map can be made.
 std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDesign& design, double relativeNoise,
                                         const MeshOptions& mesh, int threads, const std::stop_token& stop = {});
 
@@ -32,7 +32,7 @@ std::optional<SampleBounds> touchBounds(const SampleSet& samples, const SensorDe
 std::vector<TouchDeviations> learnedBounds(const Decoder& decoder, const SampleSet& samples, double relativeNoise,
                                            const std::stop_token& stop = {});
 
-/// How errors stand beside bounds, in the median over the samples: of an estimate that is normal and reaches its bound
+/// Errors compared with bounds, in the median over the samples: of an estimate that is normal and reaches its bound
 /// both ratios are 1.
 struct ErrorsOverBounds {
   double force_N = 0, place_mm = 0;      ///< medians of the bounds: of Fz, and of the root of both coordinates' squares

@@ -112,7 +112,7 @@ private:
     return influences_[static_cast<std::size_t>(x + request_.places[0] * y)];
   }
 
-  /// One touch of unknown force and place explains what lies in the span of `one`; the rest of what the pair says grows
+  /// One touch of unknown force and position explains the span of `one`; the remainder of the pair's signal grows
   /// as the square of a small distance, as a power between two of the distances tried.
   [[nodiscard]] double twoPoint_mm(int x, int y, const Eigen::MatrixXd& one) const {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(one);

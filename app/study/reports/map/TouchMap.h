@@ -38,8 +38,8 @@ struct TouchMap {
   /// Of one that friction holds: Fx, Fy, Fz, x and y unknown.
   std::array<Eigen::MatrixXd, 3> heldForce_N;
   Eigen::MatrixXd heldPlace_mm;
-  /// Distance at which two touches of half the force differ from every one touch of the whole by 3 deviations, without
-  /// friction, along x or y, whichever is worse; not a number where along one of them no such pair lies in the
+  /// Distance at which two touches of half the force differ from every single touch of the total force by 3 deviations,
+  /// without friction, along x or y, whichever is worse; not a number where along one of them no such pair lies in the
   /// rectangle.
   Eigen::MatrixXd twoPoint_mm;
 };

@@ -2,8 +2,7 @@
 
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
-#include "app/study/reports/Csv.h"
-#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "app/study/reports/networks/NoiseAxis.h"
 #include "app/study/touch/SampleGenerator.h"
@@ -26,56 +25,50 @@ constexpr std::array kCrossDecoders{DecoderKind::Linear, DecoderKind::Rbf};
 
 /// A law with a read-out, its samples and its readings at rest.
 struct CrossLaw {
-  std::string name; ///< in words
+  std::string name; ///< for readers
   std::string key;  ///< in names of figures
   SensorDesign design{};
   SampleSet training{}, test{};
   Eigen::VectorXd rest_ohm{}; ///< row by row, as SampleSet has them
 };
 
-class CrossTableWriter {
+class CrossTableWriter : ReportWriter {
 public:
   CrossTableWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), law_(*request.design.field()), progress_(std::move(progress)), stop_(std::move(stop)),
-        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N) {}
+      : ReportWriter(request, std::move(progress), std::move(stop), "cross-table",
+                     {"decoder", "trained_on", "used_on", "readings", "force", "rmse_percent_of_range"}),
+        law_(*request.design.field()) {}
 
   std::optional<ReportContent> run() {
     const auto start = std::chrono::steady_clock::now();
-    content_.title = "Networks: trained on one law, used on another";
     content_.warnings = designWarnings(request_.design);
     chooseLaws();
     for (std::size_t i = 0; i < laws_.size(); ++i)
       if (!sample(laws_[i], kSampling * static_cast<double>(i) / static_cast<double>(laws_.size()))) return {};
-    sayingTheMean();
+    predictTheMean();
     for (std::size_t d = 0; d < kCrossDecoders.size(); ++d)
       for (std::size_t i = 0; i < laws_.size(); ++i) {
         if (stop_.stop_requested()) return {};
-        say(kSampling + (1 - kSampling) * static_cast<double>(d * laws_.size() + i) /
-                            static_cast<double>(kCrossDecoders.size() * laws_.size()),
-            name(kCrossDecoders[d]) + " trained on " + laws_[i].name);
+        progress(kSampling + (1 - kSampling) * static_cast<double>(d * laws_.size() + i) /
+                                 static_cast<double>(kCrossDecoders.size() * laws_.size()),
+                 name(kCrossDecoders[d]) + " trained on " + laws_[i].name);
         useEverywhere(d, i);
       }
     introduce(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     tables();
     conclude();
-    content_.parts.push_back(ReportHeading{"Assumptions"});
-    content_.parts.push_back(ReportWords{kFieldAssumed});
-    content_.csv = csv_.text();
-    return std::move(content_);
+    commonSection("assumptions heading", "field");
+    return finished();
   }
 
 private:
-  void say(double share, const std::string& what) const {
-    if (progress_) progress_(share, what);
-  }
-
   void addField(FieldLaw law, const std::string& name, const std::string& key) {
     SensorDesign design = request_.design;
     design.resistance = law;
     if (const auto faults = check(design); faults.empty())
       laws_.push_back({name, key, design});
     else
-      content_.warnings.push_back(name + " is left out: " + faults.front().sentence);
+      content_.warnings.push_back(words_("left out", {{"law", name}, {"why", faults.front().sentence}}));
   }
 
   void chooseLaws() {
@@ -91,14 +84,13 @@ private:
     }
     FieldLaw larger = law_;
     larger.electrodeRadius_mm *= kOtherRadius;
-    addField(larger,
-             std::string(kReadouts.name(law_.readout)) + ", radius " + shortNumber(larger.electrodeRadius_mm) + " mm",
-             std::string(kReadouts.name(law_.readout)) + "_larger");
+    addField(larger, kReadouts.name(law_.readout) + ", radius " + shortNumber(larger.electrodeRadius_mm) + " mm",
+             kReadouts.name(law_.readout) + "_larger");
   }
 
   /// The same forces for every law: the first half of each area's for training. False: stopped.
   bool sample(CrossLaw& law, double share) {
-    say(share, "samples by " + law.name);
+    progress(share, "samples by " + law.name);
     law.rest_ohm = resistancesAtRest_ohm(law.design).reshaped<Eigen::RowMajor>();
     SampleRequest wanted;
     wanted.perArea = 2 * request_.perArea;
@@ -108,9 +100,9 @@ private:
     wanted.threads = request_.threads;
     SampleGenerator generator(law.design, wanted);
     generator.whileFitting([&](std::size_t done, std::size_t areas) {
-      say(share +
-              kSampling / static_cast<double>(laws_.size()) * static_cast<double>(done) / static_cast<double>(areas),
-          "samples by " + law.name + ", area " + std::to_string(done));
+      progress(share + kSampling / static_cast<double>(laws_.size()) * static_cast<double>(done) /
+                           static_cast<double>(areas),
+               "samples by " + law.name + ", area " + std::to_string(done));
     });
     SampleSet all;
     const std::size_t made = generator.generate(
@@ -131,12 +123,11 @@ private:
     return 100 * rms_N.cwiseQuotient(range_N_);
   }
 
-  void sayingTheMean() {
+  void predictTheMean() {
     const SampleSet& test = laws_.front().test;
     const Eigen::Vector3d mean_N = laws_.front().training.forces_N.rowwise().mean();
     mean_percent_ = percentOfRange(test.forces_N.colwise() - mean_N);
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      csv_.add({"predicting the mean", "", "", "", kForceNames[static_cast<std::size_t>(axis)], mean_percent_(axis)});
+    csv_.addForces({{"predicting the mean", mean_percent_}}, {"", "", ""});
   }
 
   void useEverywhere(std::size_t decoder, std::size_t trainedOn) {
@@ -159,9 +150,9 @@ private:
       for (const bool scaled : {false, true}) {
         const Eigen::VectorXd gain = scaled ? Eigen::VectorXd(from.rest_ohm.cwiseQuotient(on.rest_ohm))
                                             : Eigen::VectorXd(Eigen::VectorXd::Ones(read.rows()));
-        const Prediction said = content_.stages.measure(
+        const Prediction predicted = content_.stages.measure(
             "predict", [&] { return predict(trained, Eigen::MatrixXd(gain.asDiagonal() * read), bare); });
-        found_.push_back({decoder, trainedOn, usedOn, scaled, percentOfRange(said.forces_N - on.test.forces_N)});
+        found_.push_back({decoder, trainedOn, usedOn, scaled, percentOfRange(predicted.forces_N - on.test.forces_N)});
         record(found_.back());
       }
     }
@@ -176,13 +167,12 @@ private:
   void record(const Found& found) {
     const std::string decoder = name(kCrossDecoders[found.decoder]);
     const CrossLaw &from = laws_[found.trainedOn], &on = laws_[found.usedOn];
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const char* const force = kForceNames[static_cast<std::size_t>(axis)];
-      csv_.add({decoder, from.name, on.name, found.scaled ? "scaled at rest" : "as read", force, found.percent(axis)});
-      if (found.scaled)
-        content_.figures.emplace_back(decoder + "_trained_" + from.key + "_used_" + on.key + "_" + force + "_percent",
-                                      found.percent(axis));
-    }
+    csv_.addForces({{decoder, found.percent}}, {from.name, on.name, found.scaled ? "scaled at rest" : "as read"});
+    if (!found.scaled) return;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      content_.figures.emplace_back(decoder + "_trained_" + from.key + "_used_" + on.key + "_" + kForceNames[axis] +
+                                        "_percent",
+                                    found.percent(static_cast<Eigen::Index>(axis)));
   }
 
   [[nodiscard]] const Found& at(std::size_t decoder, std::size_t trainedOn, std::size_t usedOn, bool scaled) const {
@@ -192,43 +182,28 @@ private:
   }
 
   void introduce(double seconds) {
-    content_.parts.push_back(ReportWords{
-        std::to_string(request_.perArea) + " training forces on each area and as many others for testing (seed " +
-        std::to_string(request_.seed) + "), the same for every law, all row-wires, relative noise " +
-        text(kShownNoise) +
-        " on every resistance in training and in the test. Samples are polynomials of the force for each area, error " +
-        shortNumber(surrogateError_) +
-        " compared with full solves. Errors are root mean squares over all areas in % of the force range, Fx / Fy / "
-        "Fz; a "
-        "decoder does not know the area. Computed in " +
-        shortNumber(seconds) + " s."});
-    content_.parts.push_back(ReportWords{
-        "As read: the decoder gets the resistances of the other law as they are. Scaled at rest: each reading is "
-        "first multiplied by its value at rest in training over its value at rest in use, one gain per "
-        "reading, as in a tare. The field is between spheres of " +
-        text(law_.electrodeRadius_mm) + " mm radius unless stated otherwise."});
+    paragraph("scope", {{"samples", request_.perArea},
+                        {"seed", request_.seed},
+                        {"noise", kShownNoise},
+                        {"error", surrogateError_},
+                        {"seconds", seconds}});
+    paragraph("scaling", {{"radius", text(law_.electrodeRadius_mm)}});
   }
 
   void tables() {
     for (std::size_t d = 0; d < kCrossDecoders.size(); ++d) {
-      ReportTable table{"Decoder " + name(kCrossDecoders[d]) +
-                            ", Fx / Fy / Fz [% of range]; predicting the mean: " + triple(mean_percent_) +
-                            ". Green: below half of that in every force, scaled at rest; red: "
-                            "some force at least at the error of the mean",
-                        {"trained on", "used on", "as read", "scaled at rest"},
-                        {},
-                        {}};
+      const std::string decoder = name(kCrossDecoders[d]);
+      ReportTable table = words_.table("decoder table", {{"decoder", decoder}, {"mean", mean_percent_}});
       for (std::size_t from = 0; from < laws_.size(); ++from)
         for (std::size_t on = 0; on < laws_.size(); ++on) {
           const Eigen::Vector3d& scaled = at(d, from, on, true).percent;
-          table.rows.push_back(
-              {laws_[from].name, laws_[on].name, triple(at(d, from, on, false).percent), triple(scaled)});
-          table.marks.push_back(useful(scaled)                                   ? ReportTable::Mark::Good
-                                : (scaled.array() < mean_percent_.array()).all() ? ReportTable::Mark::Doubtful
-                                                                                 : ReportTable::Mark::Bad);
+          table.add({laws_[from].name, laws_[on].name, at(d, from, on, false).percent, scaled},
+                    useful(scaled)                                   ? ReportTable::Mark::Good
+                    : (scaled.array() < mean_percent_.array()).all() ? ReportTable::Mark::Doubtful
+                                                                     : ReportTable::Mark::Bad);
         }
-      content_.parts.push_back(ReportHeading{"Decoder " + name(kCrossDecoders[d])});
-      content_.parts.emplace_back(std::move(table));
+      heading("decoder heading", {{"decoder", decoder}});
+      add(std::move(table));
     }
   }
 
@@ -237,40 +212,31 @@ private:
   }
 
   void conclude() {
-    std::string carried;
+    std::string pairs;
     for (std::size_t from = 0; from < laws_.size(); ++from)
-      for (std::size_t on = 0; on < laws_.size(); ++on) {
-        if (from == on) continue;
+      for (std::size_t on = 0; on < laws_.size(); ++on)
         for (std::size_t d = 0; d < kCrossDecoders.size(); ++d)
-          if (useful(at(d, from, on, true).percent))
-            carried += (carried.empty() ? "" : "; ") + name(kCrossDecoders[d]) + " from " + laws_[from].name + " to " +
-                       laws_[on].name;
-      }
-    content_.parts.push_back(ReportHeading{"Decoders that work with another law"});
-    content_.parts.push_back(ReportWords{
-        carried.empty() ? "None: for no pair of laws is a decoder twice as good as predicting the mean in every "
-                          "force, not even with each reading scaled at rest."
-                        : "Twice as good as predicting the mean in every force, with each reading scaled at rest: " +
-                              carried + ". Nothing else."});
-    const std::size_t linear = 0, pairs = 0;
-    content_.summary = "A linear decoder trained on Eq. (1) and used on " + laws_[own_].name + " is wrong by " +
-                       triple(at(linear, pairs, own_, true).percent) +
-                       " % of the range of Fx / Fy / Fz with each reading scaled at rest, trained on it by " +
-                       triple(at(linear, own_, own_, true).percent) + "; always predicting the mean has an error of " +
-                       triple(mean_percent_) + ".";
+          if (from != on && useful(at(d, from, on, true).percent))
+            pairs += (pairs.empty() ? "" : "; ") + words_("pair", {{"decoder", name(kCrossDecoders[d])},
+                                                                   {"trained", laws_[from].name},
+                                                                   {"used", laws_[on].name}});
+    heading("conclusion heading");
+    if (pairs.empty())
+      paragraph("none");
+    else
+      paragraph("some", {{"pairs", pairs}});
+    const std::size_t linear = 0, eq1 = 0;
+    content_.summary = words_("summary", {{"law", laws_[own_].name},
+                                          {"crossed", at(linear, eq1, own_, true).percent},
+                                          {"own", at(linear, own_, own_, true).percent},
+                                          {"mean", mean_percent_}});
     const std::size_t last = laws_.size() - 1;
-    if (laws_[last].key == std::string(kReadouts.name(law_.readout)) + "_larger")
-      content_.summary += " Trained on it and used on electrodes of " + text(kOtherRadius) +
-                          " times the radius: " + triple(at(linear, own_, last, true).percent) + ".";
+    if (laws_[last].key == kReadouts.name(law_.readout) + "_larger")
+      content_.summary +=
+          " " + words_("radius summary", {{"times", kOtherRadius}, {"error", at(linear, own_, last, true).percent}});
   }
 
-  const ReportRequest& request_;
   const FieldLaw law_;
-  ReportProgress progress_;
-  std::stop_token stop_;
-  Eigen::Vector3d range_N_;
-  ReportContent content_;
-  Csv csv_{{"decoder", "trained_on", "used_on", "readings", "force", "rmse_percent_of_range"}};
   std::vector<CrossLaw> laws_;
   std::size_t own_ = 0; ///< of the design itself
   std::vector<Found> found_;

@@ -6,8 +6,8 @@
 
 namespace palp {
 
-/// What a design under the field can resolve by each read-out, at rest: signals beside those of Eq. (1), Cramer-Rao
-/// bounds over the noise, and what that means in bits of a converter and in newtons.
+/// What a design under the field can resolve by each read-out, at rest: signals compared with those of Eq. (1),
+/// Cramer-Rao bounds over the noise, and what that means in bits of a converter and in newtons.
 std::optional<ReportContent> fieldNoiseReport(const ReportRequest& request, const ReportProgress& progress,
                                               std::stop_token stop);
 

@@ -1,8 +1,7 @@
 #include "app/study/reports/networks/LawsSideBySide.h"
 
-#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/networks/NoiseAxis.h"
-#include "model/base/Text.h"
 
 namespace palp {
 
@@ -23,32 +22,22 @@ LawsSideBySide::LawsSideBySide(const SensorDesign& design, const FieldLaw& law, 
 }
 
 ReportTable LawsSideBySide::signals() const {
-  ReportTable table{
-      "At rest: mean and spread of R, and the change of ln R with the forces compared with Eq. (1), over all "
-      "readings and areas, Fx / Fy / Fz",
-      {"law and read-out", "mean R [ohm]", "largest over smallest", "signal, times that of Eq. (1)",
-       "correlation with Eq. (1)"},
-      {},
-      {}};
+  ReportTable table = ReportText("common").table("signals table");
   for (const LawReading& reading : readings_) {
     const auto& [factor, correlation] = comparedWith(readings_.front().slopes, reading.slopes);
-    table.rows.push_back({reading.name, shortNumber(reading.rest_ohm.mean()),
-                          shortNumber(reading.rest_ohm.maxCoeff() / reading.rest_ohm.minCoeff()), triple(factor),
-                          triple(correlation)});
+    table.add({reading.name, reading.rest_ohm.mean(), reading.rest_ohm.maxCoeff() / reading.rest_ohm.minCoeff(), factor,
+               correlation});
   }
   return table;
 }
 
 ReportTable LawsSideBySide::bounds(double noise, std::vector<std::pair<std::string, double>>* figures) const {
-  ReportTable table{"At relative noise " + text(noise) + ", root mean square over the areas, Fx / Fy / Fz [% of range]",
-                    {"law and read-out", "row-wires read", "with prior", "without prior"},
-                    {},
-                    {}};
+  ReportTable table = ReportText("common").table("laws table", {{"noise", noise}});
   for (const LawReading& reading : readings_)
     for (const int row : {row_, -1}) {
       const LayoutBound bound = reading.bound(row, noise);
-      const std::string rows = row < 0 ? "all" : std::to_string(row);
-      table.rows.push_back({reading.name, rows, triple(bound.withPrior()), triple(bound.withoutPrior())});
+      const std::string rows = rowsText(row);
+      table.add({reading.name, rows, bound.withPrior(), bound.withoutPrior()});
       if (!figures) continue;
       const std::string law = &reading == &readings_.front() ? "pairs" : reading.name;
       for (Eigen::Index axis = 0; axis < 3; ++axis)

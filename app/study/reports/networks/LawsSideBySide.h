@@ -29,7 +29,7 @@ public:
 
   /// Eq. (1) first.
   [[nodiscard]] const std::vector<LawReading>& readings() const { return readings_; }
-  /// Resistances and signals beside Eq. (1).
+  /// Resistances and signals compared with Eq. (1).
   [[nodiscard]] ReportTable signals() const;
   /// With and without prior, of the row-wire in the middle and of all; `figures` gets them by name.
   [[nodiscard]] ReportTable bounds(double noise, std::vector<std::pair<std::string, double>>* figures) const;

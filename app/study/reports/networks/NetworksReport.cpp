@@ -3,10 +3,10 @@
 #include "app/study/Median.h"
 #include "app/study/decoding/DecoderTraining.h"
 #include "app/study/paper/PaperProtocol.h"
-#include "app/study/reports/AskedLines.h"
-#include "app/study/reports/ReportPage.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/networks/CrossTable.h"
 #include "app/study/reports/networks/NetworkCheck.h"
+#include "app/study/reports/networks/RequirementTable.h"
 #include "app/study/touch/SampleGenerator.h"
 #include "model/base/Error.h"
 #include "model/base/Text.h"
@@ -26,36 +26,27 @@ struct Measured {
   double within = 0; ///< share of errors within the standard deviation that the decoder states
 };
 
-class NetworksWriter {
+class NetworksWriter : ReportWriter {
 public:
   NetworksWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), progress_(std::move(progress)), stop_(std::move(stop)),
-        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N), lines_(request.seed) {
+      : ReportWriter(request, std::move(progress), std::move(stop), "networks",
+                     {"what", "seed", "force", "value", "asked"}),
+        lines_(words_, csv_, request.seed) {
     if (request.mesh.mapped) seeds_ = 2; // a quick look
+    chart_.logX = chart_.logY = true;
   }
 
   std::optional<ReportContent> run() {
-    content_.title = "Networks: requirements and results";
-    content_.parts.push_back(ReportWords{
-        "Every line is measured on " + std::to_string(seeds_) + " sets of " + std::to_string(request_.perArea) +
-        " training forces per area, tested on as many other forces on all areas (seeds " +
-        std::to_string(request_.seed) +
-        " and following). 'Mean' and 'worst' are of the test areas, by Eq. (13) without a floor. "
-        "Green: every set meets the requirement. Yellow: their median does. Red: neither."});
+    paragraph("scope", {{"sets", seeds_}, {"samples", request_.perArea}, {"seed", request_.seed}});
     if (!protocol() || !bySeed() || !together()) return {};
-    content_.parts.emplace_back(lines_.table());
-    content_.parts.emplace_back(std::move(chart_));
-    content_.parts.push_back(ReportWords{kLeftOut});
+    add(lines_.table());
+    add(std::move(chart_));
+    add(ReportWords{common_("left out")});
     content_.summary = lines_.summary();
-    content_.csv = lines_.csv();
-    return std::move(content_);
+    return finished();
   }
 
 private:
-  void say(double share, const std::string& what) const {
-    if (progress_) progress_(share, what);
-  }
-
   const ProtocolCurve& curve(const ProtocolResult& result, const std::string& figure, const std::string& mode) const {
     return *std::find_if(result.curves.begin(), result.curves.end(),
                          [&](const ProtocolCurve& c) { return c.figure == figure && c.mode == mode; });
@@ -82,9 +73,8 @@ private:
     options.firstSeed = request_.seed;
     options.mesh = request_.mesh;
     options.threads = request_.threads;
-    const auto result = runPaperProtocol(
-        request_.design, {"table1", "fig12"}, options,
-        [&](double share, const std::string& what) { say(0.4 * share, what); }, stop_);
+    const auto result =
+        runPaperProtocol(request_.design, {"table1", "fig12"}, options, partOf(progress_, 0, 0.4), stop_);
     if (!result) return false;
     content_.stages.add(result->stages);
     const ProtocolCurve& table = curve(*result, "table1", "default");
@@ -149,7 +139,7 @@ private:
   /// A way to train that is measured on every set of samples.
   struct Case {
     std::string what;
-    Eigen::Vector3d asked;
+    Eigen::Vector3d required;
     TrainOptions options;
     Triples values{}, bounds{};
     std::vector<double> within{};
@@ -170,7 +160,7 @@ private:
 
   [[nodiscard]] Cases cases() const {
     const std::string centre = centreRow();
-    const Eigen::Vector3d nothingAsked = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    const Eigen::Vector3d comparison = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
     const TrainOptions clean = options(InputKind::Resistance, centre, 0, 1);
     const TrainOptions one = options(InputKind::Resistance, centre, 1e-6, 1);
     const TrainOptions all = options(InputKind::Resistance, "all", 1e-4, 1);
@@ -180,9 +170,9 @@ private:
                 .spread200 = {"resistance, spread 200 [% of range]", Eigen::Vector3d::Constant(5), clean},
                 .allRbf = {"all row-wires at noise 1e-4, rbf [% of range]", Eigen::Vector3d::Constant(3.5), all},
                 .oneRbf = {"one row-wire at noise 1e-6, rbf [% of range]", {4, 11, 7}, one},
-                .oneLikelihood = {"one row-wire at noise 1e-6, ml [% of range]", nothingAsked, one},
-                .allGaussian = {"all row-wires at noise 1e-4, gp [% of range]", nothingAsked, all},
-                .allLikelihood = {"all row-wires at noise 1e-4, ml [% of range]", nothingAsked, all}};
+                .oneLikelihood = {"one row-wire at noise 1e-6, ml [% of range]", comparison, one},
+                .allGaussian = {"all row-wires at noise 1e-4, gp [% of range]", comparison, all},
+                .allLikelihood = {"all row-wires at noise 1e-4, ml [% of range]", comparison, all}};
     cases.spread200.options.spread = 200;
     cases.oneLikelihood.options.decoder = cases.allLikelihood.options.decoder = DecoderKind::MaximumLikelihood;
     cases.allGaussian.options.decoder = DecoderKind::GaussianProcess;
@@ -201,7 +191,7 @@ private:
       const auto all = cases.all();
       for (std::size_t k = 0; k < all.size(); ++k) {
         if (stop_.stop_requested()) return false;
-        say(0.4 + 0.5 * (s + static_cast<double>(k) / static_cast<double>(all.size())) / seeds_, all[k]->what);
+        progress(0.4 + 0.5 * (s + static_cast<double>(k) / static_cast<double>(all.size())) / seeds_, all[k]->what);
         measure(*all[k], *sets, own.seed);
       }
     }
@@ -221,7 +211,7 @@ private:
 
   void addLines(Cases& cases) {
     for (const Case* one : cases.all())
-      lines_.add(one->what, one->asked, one->values,
+      lines_.add(one->what, one->required, one->values,
                  one->bounds.empty() ? "" : "bound with prior " + triple(median(one->bounds)));
     lines_.add("one row-wire at noise 1e-6: error of ml over that of rbf", Eigen::Vector3d::Constant(0.2),
                ratios(cases.oneLikelihood.values, cases.oneRbf.values), "");
@@ -246,12 +236,7 @@ private:
   void explainFactor(const Eigen::MatrixXd& inputs) {
     const double farthest = (inputs.colwise() - inputs.rowwise().mean()).colwise().norm().maxCoeff();
     const double half = (inputs.rowwise().maxCoeff() - inputs.rowwise().minCoeff()).maxCoeff() / 2;
-    content_.parts.push_back(ReportWords{
-        "One factor for all inputs brings the sample farthest from the mean to distance 1, so that a spread means the "
-        "same for 30 inputs and for 300. Were half of the largest range of any input brought to 1 instead, the same "
-        "networks would be found at spreads " +
-        shortNumber(farthest / half) + " times as large: " + shortNumber(bestSpread_ * farthest / half) +
-        " in place of " + shortNumber(bestSpread_) + " for the smallest error of Fig. 12."});
+    paragraph("factor", {{"factor", farthest / half}, {"other", bestSpread_ * farthest / half}, {"best", bestSpread_}});
   }
 
   static std::vector<double> offsets(const std::vector<double>& within) {
@@ -265,22 +250,22 @@ private:
         content_.stages.measure("train", [&] { return trainDecoder(sets.training, &request_.design, options, stop_); });
     const Eigen::MatrixXd inputs =
         noisyCopies(inputsOf(sets.test, decoder.input), options.noise, 1, testSeed(seed)); // never the training's noise
-    PredictOptions asked;
-    asked.noise = options.noise;
-    asked.area = asked.standardDeviation = options.noise > 0;
-    const Prediction prediction = content_.stages.measure("predict", [&] { return predict(decoder, inputs, asked); });
+    PredictOptions wanted;
+    wanted.noise = options.noise;
+    wanted.area = wanted.standardDeviation = options.noise > 0;
+    const Prediction prediction = content_.stages.measure("predict", [&] { return predict(decoder, inputs, wanted); });
     const Eigen::MatrixXd error_N = prediction.forces_N - sets.test.forces_N;
     Measured result;
     const Eigen::Vector3d rms_N = error_N.cwiseAbs2().rowwise().mean().cwiseSqrt();
     result.rmse_percentOfRange = 100 * rms_N.cwiseQuotient(range_N_);
-    if (asked.standardDeviation)
+    if (wanted.standardDeviation)
       result.within = (error_N.array().abs() < prediction.standardDeviation_N.array()).cast<double>().mean();
     return result;
   }
 
-  /// All areas loaded at once.
+  /// All areas loaded together.
   bool together() {
-    say(0.9, "all areas together");
+    progress(0.9, "all areas together");
     SampleSet sets[2];
     for (const bool test : {false, true}) {
       SampleRequest wanted;
@@ -326,22 +311,10 @@ private:
     return true;
   }
 
-  const ReportRequest& request_;
-  ReportProgress progress_;
-  std::stop_token stop_;
-  Eigen::Vector3d range_N_;
   int seeds_ = 5;
   double bestSpread_ = 0;
-  ReportContent content_;
-  AskedLines lines_;
-  ReportChart chart_{.file = "fig12",
-                     .caption =
-                         "Fig. 12 in mode paper, with one factor for all inputs and with each input scaled separately",
-                     .title = "Error from resistance against spread, mode paper",
-                     .xLabel = "spread (radbas)",
-                     .yLabel = "Eq. (13), mean of areas and forces [%]",
-                     .logX = true,
-                     .logY = true};
+  RequirementTable lines_;
+  ReportChart chart_ = words_.chart("fig12", "figure chart");
 };
 
 } // namespace

@@ -1,9 +1,6 @@
 #include "app/study/reports/networks/NoiseReport.h"
 
-#include "app/study/reports/BoundWords.h"
-#include "app/study/reports/Csv.h"
-#include "app/study/reports/ReportPage.h"
-#include "app/study/reports/ReportText.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/networks/FieldNoiseReport.h"
 #include "app/study/reports/networks/LawsSideBySide.h"
 #include "app/study/reports/networks/NetworkCheck.h"
@@ -11,7 +8,6 @@
 #include "model/base/Text.h"
 
 #include <array>
-#include <cmath>
 
 namespace palp {
 
@@ -20,15 +16,6 @@ namespace {
 constexpr int kFewestForBounds = 8; // samples on an area, for a linear fit in three forces
 constexpr std::array kTrainingNoises{0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 
-/// Relative noise that rounding to so many bits makes where R is at full scale.
-double noiseOfBits(double bits) {
-  return std::exp2(-bits) / std::sqrt(12.0);
-}
-
-double bitsOfNoise(double noise) {
-  return -std::log2(noise * std::sqrt(12.0));
-}
-
 /// Row-wires that are read together.
 struct RowChoice {
   std::string name;
@@ -36,8 +23,8 @@ struct RowChoice {
   std::vector<int> rows;
 };
 
-/// A way to decode over the noises.
-struct Baseline {
+/// A decoder and how it is trained.
+struct TestedDecoder {
   std::string name;
   DecoderKind kind;
   bool trainedClean;
@@ -54,21 +41,18 @@ void addPoint(ReportCurve& curve, double noise, double percent) {
   curve.y.push_back(percent);
 }
 
-class NoiseWriter {
+class NoiseWriter : ReportWriter {
 public:
   NoiseWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), progress_(std::move(progress)), stop_(std::move(stop)),
-        range_N_(request.design.forceRange.high_N - request.design.forceRange.low_N) {}
+      : ReportWriter(request, std::move(progress), std::move(stop), "noise",
+                     {"rows", "what", "relative_noise", "bits", "training_noise", "force", "error_percent_of_range",
+                      "error_N"}) {}
 
   std::optional<ReportContent> run() {
-    content_.title = words_("title");
-    sets_ = twoSets(
-        request_.design, request_, content_.stages,
-        [&](double share, const std::string& what) { say(0.25 * share, what); }, stop_);
+    sets_ = twoSets(request_.design, request_, content_.stages, partOf(progress_, 0, 0.25), stop_);
     if (!sets_) return {};
     if (!bounded()) {
-      const std::string why = words_(
-          "no bounds", {{"samples", std::to_string(request_.perArea)}, {"needed", std::to_string(kFewestForBounds)}});
+      const std::string why = words_("no bounds", {{"samples", request_.perArea}, {"needed", kFewestForBounds}});
       content_.warnings.push_back(why);
       content_.summary = words_("no bounds summary", {{"why", why}});
     }
@@ -76,21 +60,15 @@ public:
     introduce();
     for (std::size_t i = 0; i < choices_.size(); ++i)
       if (!errorsOf(choices_[i], static_cast<double>(i) / static_cast<double>(choices_.size()))) return {};
-    content_.parts.emplace_back(std::move(table_));
+    add(std::move(table_));
     if (!trainingNoise()) return {};
     if (bounded()) bits();
     if (!otherLaws()) return {};
-    content_.parts.push_back(ReportHeading{words_("left out heading")});
-    content_.parts.push_back(ReportWords{kLeftOut});
-    content_.csv = csv_.text();
-    return std::move(content_);
+    commonSection("left out heading", "left out");
+    return finished();
   }
 
 private:
-  void say(double share, const std::string& what) const {
-    if (progress_) progress_(share, what);
-  }
-
   void chooseRows() {
     const int count = request_.design.rowWires();
     const int centre = centreRowWire(count);
@@ -108,20 +86,22 @@ private:
   }
 
   void introduce() {
-    content_.parts.push_back(ReportHeading{words_("errors heading")});
-    content_.parts.push_back(ReportWords{words_(
-        "errors",
-        {{"samples", std::to_string(request_.perArea)}, {"range", triple(range_N_)}, {"meaning", kBoundsMean}})});
-    table_.caption = words_("errors caption", {{"noise", text(kShownNoise)}});
-    table_.heads = {"rows read", "what", "error"};
+    heading("errors heading");
+    paragraph("errors", {{"samples", request_.perArea}, {"range", range_N_}, {"meaning", common_("bounds")}});
+    table_ = words_.table("errors table", {{"noise", kShownNoise}});
+  }
+
+  void addErrors(const std::string& rows, const std::string& what, double noise, const CsvCell& trained,
+                 const Eigen::Vector3d& percent) {
+    for (int axis = 0; axis < 3; ++axis)
+      csv_.add({rows, what, noise, bitsOfNoise(noise), trained, kForceNames[axis], percent(axis),
+                percent(axis) / 100 * range_N_(axis)});
   }
 
   void point(const std::string& rows, const std::string& what, double noise, double trained,
              const Eigen::Vector3d& percent) {
-    for (int axis = 0; axis < 3; ++axis)
-      csv_.add({rows, what, noise, bitsOfNoise(noise), trained, kForceNames[axis], percent(axis),
-                percent(axis) / 100 * range_N_(axis)});
-    if (noise == kShownNoise && trained == noise) table_.rows.push_back({rows, what, triple(percent)});
+    addErrors(rows, what, noise, trained, percent);
+    if (noise == kShownNoise && trained == noise) table_.add({rows, what, percent});
   }
 
   /// Without prior and with it.
@@ -143,87 +123,76 @@ private:
 
   /// `done`: share of the choices before this one.
   bool errorsOf(const RowChoice& choice, double done) {
-    ReportChart chart{.file = "noise_" + std::to_string(choice.rows.size()),
-                      .caption = words_("errors chart", {{"rows", choice.name}, {"percent", text(kDrawnUpTo_percent)}}),
-                      .title = "Force error, " + choice.name,
-                      .xLabel = "relative noise of R (12 bits = 7e-5, 16 bits = 4.4e-6)",
-                      .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
-                      .logX = true,
-                      .logY = true,
-                      .topLabel = "bits of an ideal converter whose full scale is R"};
+    ReportChart chart = words_.chart("noise_" + std::to_string(choice.rows.size()), "errors chart",
+                                     {{"rows", choice.name}, {"percent", kDrawnUpTo_percent}});
+    chart.logX = chart.logY = true;
+    chart.topLabel = words_("bits axis");
     for (int count = 6; count <= 20; count += 2) chart.topTicks.emplace_back(noiseOfBits(count), std::to_string(count));
     std::array<ReportCurve, 2> bounds = boundsOf(choice);
-    const std::array baselines{Baseline{"rbf", DecoderKind::Rbf, false, false, 0},
-                               Baseline{"rbf, one per area", DecoderKind::Rbf, false, true, 1},
-                               Baseline{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
-                               Baseline{"linear", DecoderKind::Linear, false, false, 3},
-                               Baseline{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
-    const auto steps = static_cast<double>(baselines.size() * kNoises.size() * choices_.size());
+    const std::array decoders{TestedDecoder{"rbf", DecoderKind::Rbf, false, false, 0},
+                              TestedDecoder{"rbf, one per area", DecoderKind::Rbf, false, true, 1},
+                              TestedDecoder{"rbf, trained clean", DecoderKind::Rbf, true, false, 2},
+                              TestedDecoder{"linear", DecoderKind::Linear, false, false, 3},
+                              TestedDecoder{"ml", DecoderKind::MaximumLikelihood, false, false, 4}};
+    const auto steps = static_cast<double>(decoders.size() * kNoises.size() * choices_.size());
     double share = 0.25 + 0.5 * done;
-    for (const Baseline& baseline : baselines) {
-      ReportCurve curve{.name = baseline.name, .color = baseline.color};
+    for (const TestedDecoder& decoder : decoders) {
+      ReportCurve curve{.name = decoder.name, .color = decoder.color};
       for (const double noise : kNoises) {
         if (stop_.stop_requested()) return false;
-        say(share, choice.name + ": " + baseline.name);
+        progress(share, choice.name + ": " + decoder.name);
         share += 0.5 / steps;
-        const auto error = errorOf(choice, baseline, noise, baseline.trainedClean ? 0 : noise);
+        const auto error = errorOf(choice, decoder, noise, decoder.trainedClean ? 0 : noise);
         if (!error) continue;
         addPoint(curve, noise, rootMeanSquare(*error));
-        point(choice.name, baseline.name, noise, noise, *error);
+        point(choice.name, decoder.name, noise, noise, *error);
       }
       if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
     }
     for (ReportCurve& bound : bounds)
       chart.curves.push_back(std::move(bound)); // on top of the decoders that reach them
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(chart));
     return true;
   }
 
   /// Error of a decoder trained at one noise and tested at another; a failure is listed and leaves a gap in the curve.
-  std::optional<Eigen::Vector3d> errorOf(const RowChoice& choice, const Baseline& baseline, double noise,
+  std::optional<Eigen::Vector3d> errorOf(const RowChoice& choice, const TestedDecoder& decoder, double noise,
                                          double trained) {
     TrainOptions options;
     options.input = InputKind::Resistance;
     options.rows = choice.option;
-    options.decoder = baseline.kind;
+    options.decoder = decoder.kind;
     options.noise = trained;
     options.seed = request_.seed;
     options.threads = request_.threads;
-    const NoisyError error = (baseline.areaKnown ? noisyErrorAreaKnown : noisyError)(
+    const NoisyError error = (decoder.areaKnown ? noisyErrorAreaKnown : noisyError)(
         request_.design, *sets_, options, noise, request_.seed, content_.stages, stop_);
     if (error.failed.empty()) return error.rmse_percentOfRange;
-    content_.warnings.push_back(words_(
-        "failed", {{"rows", choice.name}, {"decoder", baseline.name}, {"noise", text(noise)}, {"why", error.failed}}));
+    content_.warnings.push_back(
+        words_("failed", {{"rows", choice.name}, {"decoder", decoder.name}, {"noise", noise}, {"why", error.failed}}));
     return {};
   }
 
   bool trainingNoise() {
-    content_.parts.push_back(ReportHeading{words_("training heading")});
-    ReportChart chart{.file = "training_noise",
-                      .caption = words_("training chart"),
-                      .title = "Networks at noise 1e-4",
-                      .xLabel = "relative noise of the training (0 is drawn at 1e-8)",
-                      .yLabel = "error, rms of Fx, Fy, Fz [% of range]",
-                      .logX = true,
-                      .logY = true};
+    heading("training heading");
+    ReportChart chart = words_.chart("training_noise", "training chart");
+    chart.logX = chart.logY = true;
     std::size_t step = 0;
     for (const RowChoice* choice : {&choices_.front(), &choices_.back()}) {
       ReportCurve curve{.name = choice->name};
       for (const double trained : kTrainingNoises) {
         if (stop_.stop_requested()) return false;
-        say(0.75 + 0.24 * static_cast<double>(step++) / static_cast<double>(2 * kTrainingNoises.size()),
-            "training noise " + text(trained));
+        progress(0.75 + 0.24 * static_cast<double>(step++) / static_cast<double>(2 * kTrainingNoises.size()),
+                 "training noise " + text(trained));
         const auto error = errorOf(*choice, {"rbf", DecoderKind::Rbf, false, true, 0}, kShownNoise, trained);
         if (!error) continue;
         curve.x.push_back(trained > 0 ? trained : 1e-8);
         curve.y.push_back(rootMeanSquare(*error));
-        for (int axis = 0; axis < 3; ++axis)
-          csv_.add({choice->name, "training noise: rbf, one per area", kShownNoise, bitsOfNoise(kShownNoise), trained,
-                    kForceNames[axis], (*error)(axis), (*error)(axis) / 100 * range_N_(axis)});
+        addErrors(choice->name, "training noise: rbf, one per area", kShownNoise, trained, *error);
       }
       chart.curves.push_back(std::move(curve));
     }
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(chart));
     return true;
   }
 
@@ -231,14 +200,10 @@ private:
 
   /// The same in bits and newtons, by the bound with prior of all row-wires.
   void bits() {
-    content_.parts.push_back(ReportHeading{words_("bits heading")});
-    ReportChart chart{.file = "bits",
-                      .caption = words_("bits chart"),
-                      .title = "Resolution of this design",
-                      .xLabel = "bits",
-                      .yLabel = "root mean square error [N]",
-                      .logY = true};
-    ReportTable table{.caption = words_("bits caption"), .heads = {"bits", "relative noise"}};
+    heading("bits heading");
+    ReportChart chart = words_.chart("bits", "bits chart");
+    chart.logY = true;
+    ReportTable table = words_.table("bits table");
     for (const RowChoice& choice : choices_) {
       table.heads.push_back(choice.name + " [N]");
       table.heads.push_back("resolves [N]");
@@ -257,62 +222,47 @@ private:
       }
       table.rows.push_back(std::move(cells));
     }
-    content_.parts.emplace_back(std::move(table));
-    content_.parts.emplace_back(std::move(chart));
+    add(std::move(table));
+    add(std::move(chart));
   }
 
   void summarise(const RowChoice& choice, int count, double error_N) {
     if (&choice != &choices_.front() && &choice != &choices_.back()) return;
     content_.summary +=
-        (content_.summary.empty() ? "" : " ") + words_("bits summary", {{"bits", std::to_string(count)},
-                                                                        {"noise", shortNumber(noiseOfBits(count))},
-                                                                        {"rows", choice.name},
-                                                                        {"error", shortNumber(error_N)}});
+        (content_.summary.empty() ? "" : " ") +
+        words_("bits summary",
+               {{"bits", count}, {"noise", noiseOfBits(count)}, {"rows", choice.name}, {"error", error_N}});
   }
 
   /// The same design under the usual law of the field: the read-out decides more than the law. False: stopped.
   bool otherLaws() {
-    content_.parts.push_back(ReportHeading{words_("laws heading")});
+    heading("laws heading");
     const FieldLaw law;
     SensorDesign field = request_.design;
     field.resistance = law;
     if (const auto faults = check(field); !faults.empty() || field.pressureLaw) {
       const std::string why = faults.empty() ? words_("pressure law") : faults.front().sentence;
-      content_.parts.push_back(ReportWords{words_("laws not available", {{"why", why}})});
+      paragraph("laws not available", {{"why", why}});
       return true;
     }
-    say(0.99, "other laws and read-outs");
+    progress(0.99, "other laws and read-outs");
     const auto response =
         AreaResponse::atRest(request_.design, request_.mesh, request_.threads, content_.stages, {}, stop_);
     if (!response) return false;
     const LawsSideBySide laws(request_.design, law, *response, request_.threads, content_.stages, stop_);
-    content_.parts.push_back(ReportWords{
-        words_("laws", {{"radius", text(law.electrodeRadius_mm)}, {"resistivity", text(law.resistivity_ohm_mm)}})});
-    content_.parts.emplace_back(laws.signals());
-    content_.parts.emplace_back(laws.bounds(kShownNoise, &content_.figures));
+    paragraph("laws", {{"radius", text(law.electrodeRadius_mm)}, {"resistivity", text(law.resistivity_ohm_mm)}});
+    add(laws.signals());
+    add(laws.bounds(kShownNoise, &content_.figures));
     for (const LawReading& reading : laws.readings())
       for (const int row : {centreRowWire(request_.design.rowWires()), -1}) {
         const LayoutBound bound = reading.bound(row, kShownNoise);
         const std::string rows = row < 0 ? choices_.back().name : "row-wire " + std::to_string(row);
-        addBound(rows, "bound with prior at rest, " + reading.name, bound.withPrior());
-        addBound(rows, "bound without prior at rest, " + reading.name, bound.withoutPrior());
+        addErrors(rows, "bound with prior at rest, " + reading.name, kShownNoise, "", bound.withPrior());
+        addErrors(rows, "bound without prior at rest, " + reading.name, kShownNoise, "", bound.withoutPrior());
       }
     return true;
   }
 
-  void addBound(const std::string& rows, const std::string& what, const Eigen::Vector3d& percent) {
-    for (int axis = 0; axis < 3; ++axis)
-      csv_.add({rows, what, kShownNoise, bitsOfNoise(kShownNoise), "", kForceNames[axis], percent(axis),
-                percent(axis) / 100 * range_N_(axis)});
-  }
-
-  const ReportText words_{"noise"};
-  const ReportRequest& request_;
-  ReportProgress progress_;
-  std::stop_token stop_;
-  Eigen::Vector3d range_N_;
-  ReportContent content_;
-  Csv csv_{{"rows", "what", "relative_noise", "bits", "training_noise", "force", "error_percent_of_range", "error_N"}};
   std::optional<TwoSets> sets_;
   std::vector<RowChoice> choices_;
   ReportTable table_;

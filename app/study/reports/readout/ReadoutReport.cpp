@@ -1,9 +1,6 @@
 #include "app/study/reports/readout/ReadoutReport.h"
 
-#include "app/study/reports/BoundWords.h"
-#include "app/study/reports/Csv.h"
-#include "app/study/reports/ReportPage.h"
-#include "app/study/reports/ReportText.h"
+#include "app/study/reports/ReportWriter.h"
 #include "app/study/reports/layout/FieldResponse.h"
 #include "app/study/reports/layout/SignalComparison.h"
 #include "app/study/reports/networks/NoiseAxis.h"
@@ -43,18 +40,18 @@ struct OfReadout {
   CurrentPaths paths;
 };
 
-class ReadoutWriter {
+class ReadoutWriter : ReportWriter {
 public:
   ReadoutWriter(const ReportRequest& request, ReportProgress progress, std::stop_token stop)
-      : request_(request), law_(request.design.field() ? *request.design.field() : FieldLaw{}),
-        progress_(std::move(progress)), stop_(std::move(stop)), row_(centreRowWire(request.design.rowWires())) {
+      : ReportWriter(request, std::move(progress), std::move(stop), "readout",
+                     {"what", "readout", "rows", "at", "force", "value"}),
+        law_(request.design.field() ? *request.design.field() : FieldLaw{}) {
     design_ = request.design;
     design_.resistance = law_;
     requireValid(design_); // electrodes of the usual radius may not fit a design by Eq. (1)
   }
 
   std::optional<ReportContent> run() {
-    content_.title = words_("title");
     content_.warnings = designWarnings(design_);
     const auto response = AreaResponse::atRest(design_, request_.mesh, request_.threads, content_.stages,
                                                partOf(progress_, 0, 0.3), stop_);
@@ -64,28 +61,21 @@ public:
     readouts(*response);
     sweeps(*response);
     sentences();
-    content_.parts.push_back(ReportHeading{words_("assumptions heading")});
-    content_.parts.push_back(ReportWords{kFieldAssumed});
-    content_.parts.push_back(ReportWords{words_("radius assumption", {{"radius", text(law_.electrodeRadius_mm)}})});
-    content_.csv = csv_.text();
-    return std::move(content_);
+    commonSection("assumptions heading", "field");
+    paragraph("radius assumption", {{"radius", text(law_.electrodeRadius_mm)}});
+    return finished();
   }
 
 private:
-  void progress(double share, const std::string& what) const {
-    if (progress_) progress_(share, what);
-  }
-
   void introduce() {
-    content_.parts.push_back(ReportHeading{words_("design heading")});
-    content_.parts.push_back(ReportWords{
-        words_("design", {{"law", words_(request_.design.field() ? "law field" : "law pairs")},
-                          {"radius", text(law_.electrodeRadius_mm)},
-                          {"resistivity", text(law_.resistivity_ohm_mm)},
-                          {"contact", text(law_.contact_ohm_mm2)},
-                          {"wire", text(law_.wire_ohm)},
-                          {"lower", words_(design_.lowerFollowsRubber ? "lower follow" : "lower fixed")}})});
-    content_.parts.push_back(ReportWords{words_("readouts")});
+    heading("design heading");
+    paragraph("design", {{"law", words_(request_.design.field() ? "law field" : "law pairs")},
+                         {"radius", text(law_.electrodeRadius_mm)},
+                         {"resistivity", text(law_.resistivity_ohm_mm)},
+                         {"contact", text(law_.contact_ohm_mm2)},
+                         {"wire", text(law_.wire_ohm)},
+                         {"lower", words_(design_.lowerFollowsRubber ? "lower follow" : "lower fixed")}});
+    paragraph("readouts");
   }
 
   void readouts(const AreaResponse& response) {
@@ -93,17 +83,8 @@ private:
     SensorDesign pairs = design_;
     pairs.resistance = PairsLaw{};
     const LogSensitivity byPairs = logSensitivity(pairs, response);
-    ReportTable bounds{words_("bounds caption", {{"noise", text(kShownNoise)}, {"meaning", kBoundsMean}}),
-                       {"read-out", "row-wires read", "noise of each reading, with prior", "without prior",
-                        "noise of full scale, with prior", "without prior"},
-                       {},
-                       {}};
-    ReportTable signals{words_("signals caption"),
-                        {"read-out", "least R [ohm]", "largest R [ohm]", "signal over that of Eq. (1)",
-                         "correlation with Eq. (1)", "current straight from row to column",
-                         "current through other wires' metal"},
-                        {},
-                        {}};
+    ReportTable bounds = words_.table("bounds table", {{"noise", kShownNoise}, {"meaning", common_("bounds")}});
+    ReportTable signals = words_.table("signals table");
     for (const auto& [readout, name] : kReadouts.all()) {
       const Eigen::MatrixXd rest = field.resistances_ohm(readout);
       const LogSensitivity slopes = field.logSensitivity(readout);
@@ -116,41 +97,32 @@ private:
       for (const int row : {row_, -1}) {
         const LayoutBound each = field.bound(readout, row, kShownNoise);
         const LayoutBound full = field.bound(readout, row, fullScaleNoise(readout, rest, kShownNoise));
-        bounds.rows.push_back({name, row < 0 ? "all" : std::to_string(row), triple(each.withPrior()),
-                               triple(each.withoutPrior()), triple(full.withPrior()), triple(full.withoutPrior())});
-        add(name, row, "noise of each reading", kShownNoise, each);
-        add(name, row, "noise of full scale", kShownNoise, full);
+        bounds.add({name, rowsText(row), each.withPrior(), each.withoutPrior(), full.withPrior(), full.withoutPrior()});
+        addBounds(name, row, "noise of each reading", kShownNoise, each);
+        addBounds(name, row, "noise of full scale", kShownNoise, full);
         if (row >= 0) continue;
         of.mean_percent = each.mean();
         of.mean_percentFullScale = full.mean();
         of.all_percent = each.withPrior();
       }
       const SignalComparison signal = comparedWith(byPairs, slopes);
-      signals.rows.push_back({name, shortNumber(of.least_ohm), shortNumber(of.most_ohm), triple(signal.factor),
-                              triple(signal.correlation), shortNumber(100 * of.paths.straight) + " %",
-                              shortNumber(100 * of.paths.metal) + " %"});
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto force = static_cast<Eigen::Index>(axis);
-        csv_.add({"signal over that of Eq. (1)", name, "all", "", kForceNames[axis], signal.factor(force)});
-        csv_.add({"correlation with Eq. (1)", name, "all", "", kForceNames[axis], signal.correlation(force)});
-      }
+      signals.add({name, of.least_ohm, of.most_ohm, signal.factor, signal.correlation,
+                   shortNumber(100 * of.paths.straight) + " %", shortNumber(100 * of.paths.metal) + " %"});
+      csv_.addForces({{"signal over that of Eq. (1)", signal.factor}, {"correlation with Eq. (1)", signal.correlation}},
+                     {name, "all", ""});
       csv_.add({"current straight from row to column, share", name, "all", "", "", of.paths.straight});
       csv_.add({"current through other wires' metal, share", name, "all", "", "", of.paths.metal});
     }
-    content_.parts.push_back(ReportHeading{words_("comparison heading")});
-    content_.parts.push_back(ReportWords{words_("comparison")});
-    content_.parts.emplace_back(std::move(bounds));
-    content_.parts.emplace_back(std::move(signals));
+    heading("comparison heading");
+    paragraph("comparison");
+    add(std::move(bounds));
+    add(std::move(signals));
   }
 
-  void add(const std::string& readout, int row, const std::string& what, double at, const LayoutBound& bound) {
-    const Eigen::Vector3d with = bound.withPrior(), without = bound.withoutPrior();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto force = static_cast<Eigen::Index>(axis);
-      const std::string rows = row < 0 ? "all" : std::to_string(row);
-      csv_.add({what + ": bound with prior [%]", readout, rows, at, kForceNames[axis], with(force)});
-      csv_.add({what + ": bound without prior [%]", readout, rows, at, kForceNames[axis], without(force)});
-    }
+  void addBounds(const std::string& readout, int row, const std::string& what, double at, const LayoutBound& bound) {
+    csv_.addForces({{what + ": bound with prior [%]", bound.withPrior()},
+                    {what + ": bound without prior [%]", bound.withoutPrior()}},
+                   {readout, rowsText(row), at});
   }
 
   /// A number of the law and the values it is given.
@@ -196,14 +168,10 @@ private:
     const std::vector<LawSweep> all = lawSweeps();
     for (std::size_t s = 0; s < all.size(); ++s) {
       const LawSweep& sweep = all[s];
-      content_.parts.push_back(ReportHeading{sweep.heading});
-      ReportTable table{words_("sweep caption", {{"noise", text(kShownNoise)}}), {sweep.what}, {}, {}};
-      ReportChart chart{.file = sweep.file,
-                        .caption = words_("sweep chart", {{"label", sweep.label}}),
-                        .title = sweep.heading,
-                        .xLabel = sweep.label,
-                        .yLabel = "bound, geometric mean [% of range]",
-                        .logY = true};
+      add(ReportHeading{sweep.heading});
+      ReportTable table = words_.table("sweep table", {{"noise", kShownNoise}, {"what", sweep.what}});
+      ReportChart chart = words_.chart(sweep.file, "sweep chart", {{"heading", sweep.heading}, {"label", sweep.label}});
+      chart.logY = true;
       for (const OfReadout& of : found_) {
         table.heads.push_back(of.name);
         chart.curves.push_back({.name = of.name});
@@ -222,7 +190,7 @@ private:
         std::vector<std::string> cells{shortNumber(sweep.shown[i])};
         for (std::size_t r = 0; r < found_.size(); ++r) {
           const LayoutBound bound = field.bound(found_[r].readout, -1, kShownNoise);
-          add(found_[r].name, -1, sweep.what, sweep.shown[i], bound);
+          addBounds(found_[r].name, -1, sweep.what, sweep.shown[i], bound);
           means[r].push_back(bound.mean());
           cells.push_back(shortNumber(bound.mean()));
           chart.curves[r].x.push_back(sweep.shown[i]);
@@ -231,8 +199,8 @@ private:
         table.rows.push_back(std::move(cells));
       }
       means_.push_back(std::move(means));
-      content_.parts.emplace_back(std::move(table));
-      content_.parts.emplace_back(std::move(chart));
+      add(std::move(table));
+      add(std::move(chart));
     }
     swept_ = all;
   }
@@ -248,7 +216,7 @@ private:
   }
 
   /// "8.8 times better than floating, 1.2 times better than rows_grounded".
-  [[nodiscard]] std::string othersBeside(const OfReadout& best) const {
+  [[nodiscard]] std::string comparedWithOthers(const OfReadout& best) const {
     std::string words;
     for (const OfReadout& of : found_)
       if (of.name != best.name)
@@ -259,7 +227,6 @@ private:
 
   /// Relative noise that leaves kWanted_percent without prior, which grows with the noise in proportion.
   [[nodiscard]] static double noiseFor(double mean_percent) { return kShownNoise * kWanted_percent / mean_percent; }
-  [[nodiscard]] static double bitsFor(double noise) { return std::ceil(-std::log2(noise * std::sqrt(12.0))); }
 
   void sentences() {
     const auto best = std::min_element(found_.begin(), found_.end(), [](const OfReadout& a, const OfReadout& b) {
@@ -272,33 +239,32 @@ private:
     const std::vector<double>& byRadius = means_[0][index];
     const auto bestRadius =
         static_cast<std::size_t>(std::min_element(byRadius.begin(), byRadius.end()) - byRadius.begin());
-    const double bits = bitsFor(noiseFor(best->mean_percentFullScale));
-    content_.parts.push_back(ReportHeading{words_("conclusions heading")});
-    content_.parts.push_back(ReportWords{words_("best", {{"best", best->name}, {"others", othersBeside(*best)}})});
-    content_.parts.push_back(ReportWords{words_("currents", {{"least", shortNumber(best->least_ohm)},
-                                                             {"most", shortNumber(best->most_ohm)},
-                                                             {"ratio", shortNumber(best->most_ohm / best->least_ohm)},
-                                                             {"current", shortNumber(1000 * best->paths.mostPerVolt_A)},
-                                                             {"straight", shortNumber(100 * best->paths.straight)}})});
-    content_.parts.push_back(
-        ReportWords{words_("noise", {{"wanted", text(kWanted_percent)},
-                                     {"reading", shortNumber(noiseFor(best->mean_percent))},
-                                     {"full_scale", shortNumber(noiseFor(best->mean_percentFullScale))},
-                                     {"bits", shortNumber(bits)},
-                                     {"worst", worst->name},
-                                     {"worst_reading", shortNumber(noiseFor(worst->mean_percent))},
-                                     {"worst_full_scale", shortNumber(noiseFor(worst->mean_percentFullScale))}})});
-    content_.parts.push_back(ReportWords{words_("wires", {{"wire", shortNumber(harmless(2, index))},
-                                                          {"loss", shortNumber(100 * (kLoss - 1))},
-                                                          {"contact", shortNumber(harmless(1, index))},
-                                                          {"spreading", shortNumber(spreading_ohm())}})});
-    content_.parts.push_back(ReportWords{words_("radius", {{"radius", shortNumber(swept_[0].shown[bestRadius])},
-                                                           {"best", best->name},
-                                                           {"bound", shortNumber(byRadius[bestRadius])},
-                                                           {"first_bound", shortNumber(byRadius.front())},
-                                                           {"first", shortNumber(swept_[0].shown.front())},
-                                                           {"last_bound", shortNumber(byRadius.back())},
-                                                           {"last", shortNumber(swept_[0].shown.back())}})});
+    const double bits = std::ceil(bitsOfNoise(noiseFor(best->mean_percentFullScale)));
+    heading("conclusions heading");
+    paragraph("best", {{"best", best->name}, {"others", comparedWithOthers(*best)}});
+    paragraph("currents", {{"least", best->least_ohm},
+                           {"most", best->most_ohm},
+                           {"ratio", best->most_ohm / best->least_ohm},
+                           {"current", 1000 * best->paths.mostPerVolt_A},
+                           {"straight", 100 * best->paths.straight}});
+    paragraph("noise", {{"wanted", text(kWanted_percent)},
+                        {"reading", noiseFor(best->mean_percent)},
+                        {"full_scale", noiseFor(best->mean_percentFullScale)},
+                        {"bits", bits},
+                        {"worst", worst->name},
+                        {"worst_reading", noiseFor(worst->mean_percent)},
+                        {"worst_full_scale", noiseFor(worst->mean_percentFullScale)}});
+    paragraph("wires", {{"wire", harmless(2, index)},
+                        {"loss", 100 * (kLoss - 1)},
+                        {"contact", harmless(1, index)},
+                        {"spreading", spreading_ohm()}});
+    paragraph("radius", {{"radius", swept_[0].shown[bestRadius]},
+                         {"best", best->name},
+                         {"bound", byRadius[bestRadius]},
+                         {"first_bound", byRadius.front()},
+                         {"first", swept_[0].shown.front()},
+                         {"last_bound", byRadius.back()},
+                         {"last", swept_[0].shown.back()}});
     for (const OfReadout& of : found_) {
       content_.figures.emplace_back(of.name + "_bound_without_prior_percent", of.mean_percent);
       content_.figures.emplace_back(of.name + "_bound_without_prior_full_scale_percent", of.mean_percentFullScale);
@@ -310,26 +276,19 @@ private:
     content_.figures.emplace_back("harmless_wire_ohm", harmless(2, index));
     content_.figures.emplace_back("best_radius_mm", swept_[0].shown[bestRadius]);
     content_.summary = words_("summary", {{"best", best->name},
-                                          {"noise", text(kShownNoise)},
-                                          {"error", triple(best->all_percent)},
-                                          {"others", othersBeside(*best)},
-                                          {"wire", shortNumber(harmless(2, index))},
-                                          {"loss", shortNumber(100 * (kLoss - 1))}});
+                                          {"noise", kShownNoise},
+                                          {"error", best->all_percent},
+                                          {"others", comparedWithOthers(*best)},
+                                          {"wire", harmless(2, index)},
+                                          {"loss", 100 * (kLoss - 1)}});
   }
 
   [[nodiscard]] double spreading_ohm() const {
     return law_.resistivity_ohm_mm / (4 * std::numbers::pi * law_.electrodeRadius_mm);
   }
 
-  const ReportText words_{"readout"};
-  const ReportRequest& request_;
   const FieldLaw law_;
   SensorDesign design_;
-  ReportProgress progress_;
-  std::stop_token stop_;
-  int row_;
-  ReportContent content_;
-  Csv csv_{{"what", "readout", "rows", "at", "force", "value"}};
   std::vector<OfReadout> found_;
   std::vector<LawSweep> swept_;
   std::vector<std::vector<std::vector<double>>> means_; ///< of each sweep, by read-out and value [%]

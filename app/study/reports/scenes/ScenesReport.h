@@ -6,9 +6,8 @@
 
 namespace palp {
 
-/// What each scene and each command costs: stages run, seconds, memory, pictures drawn, on opening, on a change of
-/// load, material or layout, and when hidden; the proof that nothing is computed that is not shown. The window and the
-/// commands are run as programs where the request says where they lie.
+/// What each scene costs: stages run, seconds and memory on opening, on a change of load, material or layout, and while
+/// hidden; a stage that ran although the scene does not show it is a fault. Returns nullopt if cancelled.
 std::optional<ReportContent> scenesReport(const ReportRequest& request, const ReportProgress& progress,
                                           std::stop_token stop);
 

@@ -18,7 +18,7 @@ constexpr double kContactAllowed = 1e-6;
 constexpr double kLightestTouch_N = 1e-6;
 
 /// Extremes of indenters. A result is checked by what holds for any contact: the clamped face bears what the indenters
-/// press with, they press with what they are told, and nothing pulls.
+/// press with, they press with the prescribed force, and nothing pulls.
 class ContactCases {
 public:
   ContactCases(StabilityCases& cases, const ReportRequest& request, StageLog& stages)
@@ -34,8 +34,8 @@ public:
       add("size of a sphere", text(radius) + " mm",
           {{IndenterShape::Sphere, radius, 0, centre_mm_, 0, Motion{std::min(0.02 * h, radius), {0, 0}}}});
     for (const double friction : {0., 0.01, 0.3, 1., 2.}) {
-      const double aside = 0.05 * std::min(1., friction) * strength_N_;
-      add("friction", "mu = " + text(friction), {sphere(centre_mm_, friction, {aside, 0, -0.1 * strength_N_})});
+      const double tangential = 0.05 * std::min(1., friction) * strength_N_;
+      add("friction", "mu = " + text(friction), {sphere(centre_mm_, friction, {tangential, 0, -0.1 * strength_N_})});
     }
     add("first touch", text(kLightestTouch_N) + " N", {sphere(centre_mm_, 0, {0, 0, -kLightestTouch_N})});
     add("first touch", text(kLightestTouch_N) + " N, mu = 0.5",
@@ -91,7 +91,8 @@ private:
       const Press* press = load.indenters[k].press();
       if (press && solution.converged) {
         Eigen::Vector3d missed = force - press->force_N;
-        if (load.indenters[k].friction == 0) missed.head<2>().setZero(); // it is held aside, with what that takes
+        if (load.indenters[k].friction == 0)
+          missed.head<2>().setZero(); // it is held tangentially by whatever force that takes
         worst = std::max(worst, missed.norm() / press->force_N.norm());
       }
     }

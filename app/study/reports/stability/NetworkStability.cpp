@@ -16,7 +16,7 @@ namespace palp {
 
 namespace {
 
-constexpr double kNothing_percent = 28.9; // of range: an error that knowing nothing has
+constexpr double kNothing_percent = 28.9; // of range: the error of predicting the mean
 /// A leave-one-out error may miss the true one by this factor: it is found on other points.
 constexpr double kEstimateFactor = 3;
 constexpr double kPoor_percent = 5; ///< of range: no such network is called right
@@ -37,7 +37,7 @@ NetworkData dataOf(const SensorDesign& design, const TwoSets& sets) {
           design.forceRange.high_N - design.forceRange.low_N};
 }
 
-/// Trains, tests, and compares what the fit says of itself with what it does.
+/// Trains, tests, and compares the fit's own error estimate with its error.
 void train(StabilityRow& row, const NetworkData& data, const RbfOptions& options, const std::stop_token& stop) {
   const RbfFit fit = trainRbf(data.samples, data.targets, options, stop);
   row.condition = fit.report.condition;

@@ -182,11 +182,13 @@ private:
       check(row, request_.design, load, mesh_);
     });
     for (const int strips : {30, 50})
-      cases_.add("areas", std::to_string(strips) + " strips thinner than an element, against the whole face",
+      cases_.add("areas",
+                 std::to_string(strips) +
+                     " strips thinner than an element, against the whole face", // words: ok, a name in the CSV
                  [&](StabilityRow& row) { thinAreas(row, strips); });
   }
 
-  /// Strips that bear equal tractions are the same load as one area over the whole face.
+  /// Strips that bear equal tractions are the same load as one area over the complete face.
   void thinAreas(StabilityRow& row, int strips) {
     SensorDesign thin = request_.design, whole = request_.design;
     thin.areas = {strips, 1};
@@ -199,8 +201,8 @@ private:
     const Solution solution = solve(fine, load);
     row.iterations = solution.iterations();
     row.error = difference(solution.state().displacements_mm, solve(one, onArea(0, force_N)).state().displacements_mm);
-    row.errorOf = "the whole face loaded";
-    judge(row, 1e-9); // the same nodal forces but for rounding
+    row.errorOf = "the whole face loaded"; // words: ok, a name in the CSV
+    judge(row, 1e-9);                      // the same nodal forces but for rounding
   }
 
   void largeForces() {
@@ -262,7 +264,7 @@ private:
       add("nu = " + text(nu), design, typical_);
     }
     for (const double thickness : {1.0, 30.0}) add(text(thickness) + " mm thick", withThickness(thickness), typical_);
-    if (quick_) return; // few hexahedra are no judge of large forces
+    if (quick_) return; // few hexahedra are a poor reference for large forces
     for (const Eigen::Vector3d& force :
          {Eigen::Vector3d(30, 0, 0), Eigen::Vector3d(0, 0, 60), Eigen::Vector3d(0, 0, -60), Eigen::Vector3d(0, 0, -150),
           Eigen::Vector3d(3, 3, -60)})
@@ -306,7 +308,7 @@ private:
   StabilityCases& cases_;
   const ReportRequest& request_;
   StageLog& stages_;
-  bool quick_;       ///< a coarse mesh is asked for: a look at the report, not at the solver
+  bool quick_;       ///< a coarse mesh is requested: a look at the report, not at the solver
   MeshOptions mesh_; ///< of hexahedra
   MeshOptions tets_;
   NewtonOptions newton_;

@@ -44,7 +44,7 @@ StabilityRow runCase(const std::string& group, const std::string& what,
   } catch (const Error& refused) {
     row.outcome = StabilityOutcome::Refused;
     row.words = refused.what();
-  } catch (const std::exception& mistake) { // not hidden: the row turns red and says it
+  } catch (const std::exception& mistake) { // not hidden: the row turns red and has the message
     row.outcome = StabilityOutcome::Wrong;
     row.words = std::string("a mistake of the program: ") + mistake.what();
   }

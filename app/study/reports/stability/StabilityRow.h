@@ -12,10 +12,10 @@ namespace palp {
 /// How an extreme case came out.
 enum class StabilityOutcome {
   Right,   ///< a result, and the check of it passed
-  Stopped, ///< no full result, and it said so and why
+  Stopped, ///< no full result, and the reason was reported
   Warned,  ///< a poor result with a warning
   Refused, ///< input that cannot be, refused with a sentence
-  Wrong,   ///< a result whose check failed, and nothing said so
+  Wrong,   ///< a result whose check failed, silently
 };
 
 /// An extreme case; what does not apply is NaN.
@@ -34,7 +34,7 @@ struct StabilityRow {
 /// Right, stopped, ... as in the CSV.
 std::string name(StabilityOutcome outcome);
 
-/// Right where the error is at most `allowed`, else wrong with a sentence that says so.
+/// Right where the error is at most `allowed`, else wrong with a sentence on the error.
 void judge(StabilityRow& row, double allowed);
 
 /// Runs a case with a clock; a refusal becomes the outcome.

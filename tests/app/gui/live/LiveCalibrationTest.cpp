@@ -322,7 +322,7 @@ TEST_F(LiveCalibrating, SuggestsThreeWeightsAndShowsWhatTheNetworkReadsBesideThe
   auto& table = find<QTableWidget>("labelledFrames");
   const auto third = [&](int column) { return table.item(0, column)->text().split(", ").value(2).toDouble(); };
   EXPECT_NEAR(third(1), find<QDoubleSpinBox>("label_Fz").value(), 1e-3);
-  EXPECT_NEAR(third(2), calibration().frames().said_N()(2, 0), 1e-3);
+  EXPECT_NEAR(third(2), calibration().frames().predicted_N()(2, 0), 1e-3);
 }
 
 TEST(SuggestedMasses, AreOfAnOrdinarySetOfWeightsWithinTheRange) {

@@ -5,7 +5,7 @@
 #include "app/study/Resources.h"
 #include "io/DecoderFile.h"
 #include "io/DesignFile.h"
-#include "io/SampleText.h"
+#include "io/SampleFile.h"
 #include "model/base/Error.h"
 
 #include <QFile>

@@ -232,7 +232,7 @@ TEST(LabelledFrames, RefuseALoadThatMovesAndKeepWhatTheNetworkSaid) {
   };
   collect(0);
   ASSERT_EQ(frames.samples().size(), 1);
-  EXPECT_NEAR(frames.said_N()(2, 0), -2, 1e-12);
+  EXPECT_NEAR(frames.predicted_N()(2, 0), -2, 1e-12);
   const std::string why = refusal([&] { collect(0.02); });
   EXPECT_NE(why.find("moved"), std::string::npos) << why;
   EXPECT_NE(why.find("Fz"), std::string::npos) << why;

@@ -206,7 +206,7 @@ TEST(FieldNoiseReport, GivesBoundsByLawAndReadOut) {
   for (const char* line : {"\nbound with prior [%],virtual_ground,all,1e-04,Fz,", "\nbound with prior [%],Eq. (1),4,",
                            "\nsignal over that of Eq. (1),floating,,,Fx,"})
     EXPECT_NE(report->csv.find(line), std::string::npos) << line;
-  EXPECT_NE(report->summary.find("Read by virtual_ground with noise 1e-04"), std::string::npos) << report->summary;
+  EXPECT_NE(report->summary.find("Read by virtual_ground with noise 0.0001"), std::string::npos) << report->summary;
 }
 
 } // namespace

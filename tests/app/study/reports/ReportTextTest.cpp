@@ -28,11 +28,26 @@ TEST(ReportText, OfEveryReportCanBeFilledIn) {
   EXPECT_GT(texts, 10);
 }
 
+TEST(ReportText, HasTablesAndChartsWithTheirUnits) {
+  const ReportText words("readout");
+  const ReportTable table = words.table("sweep table", {{"noise", 1e-4}, {"what", "radius [mm]"}});
+  EXPECT_EQ(table.caption, "All row-wires, noise 0.0001 of each reading: bound without prior, geometric mean of the "
+                           "forces [% of range]");
+  EXPECT_EQ(table.heads, std::vector<std::string>{"radius [mm]"});
+  const ReportChart chart = words.chart("r", "sweep chart", {{"heading", "Radius"}, {"label", "radius [mm]"}});
+  EXPECT_EQ(chart.caption, "Bound without prior of all row-wires against the radius [mm]");
+  EXPECT_EQ(chart.title, "Radius");
+  EXPECT_EQ(chart.xLabel, "radius [mm]");
+  EXPECT_EQ(chart.yLabel, "bound, geometric mean [% of range]");
+  EXPECT_THROW(static_cast<void>(words.chart("r", "sweep table", {{"noise", 1}, {"what", 2}})), std::logic_error);
+}
+
 TEST(ReportText, RefusesMissingAndUnusedNamesAndUnknownKeys) {
   const ReportText words("readout");
-  EXPECT_EQ(words("sweep chart", {{"label", "radius"}}), "Bound without prior of all row-wires against the radius");
-  EXPECT_THROW(static_cast<void>(words("sweep chart")), std::logic_error);
-  EXPECT_THROW(static_cast<void>(words("sweep chart", {{"label", "a"}, {"unit", "mm"}})), std::logic_error);
+  EXPECT_EQ(words("law pairs"),
+            "The design's law is Eq. (1), which has no read-out; here its block has the default field law");
+  EXPECT_THROW(static_cast<void>(words("sweep table", {{"noise", 1e-4}})), std::logic_error);
+  EXPECT_THROW(static_cast<void>(words("law pairs", {{"unit", "mm"}})), std::logic_error);
   EXPECT_THROW(static_cast<void>(words("no such key")), std::logic_error);
   EXPECT_THROW(ReportText("no such report"), Error);
 }

@@ -1,6 +1,6 @@
 #include "app/study/touch/DesignMirror.h"
 
-#include "app/study/touch/LowSide.h"
+#include "app/study/touch/SymmetryReduction.h"
 #include "model/FieldAtRest.h"
 #include "model/RowColumnResistance.h"
 #include "solver/HyperelasticProblem.h"
@@ -70,12 +70,12 @@ TEST(DesignMirror, WhatTheImageOfALoadDoesIsTheImage) {
   }
 }
 
-TEST(LowSide, HoldsATouchOrItsImage) {
+TEST(SymmetryReduction, HoldsATouchOrItsImage) {
   const SensorDesign design = paperDesign();
   TouchRange range = touchesOf(design);
   range.low_mm = {2, 14};
   range.high_mm = {20, 27};
-  const LowSide side(design, range);
+  const SymmetryReduction side(design, range);
   const TouchRange low = side.of(range);
   EXPECT_EQ(low.low_mm, Eigen::Vector2d(2, 3));
   EXPECT_EQ(low.high_mm, Eigen::Vector2d(15, 15));
@@ -94,7 +94,7 @@ TEST(LowSide, HoldsATouchOrItsImage) {
     const Eigen::Vector2d place_mm = load.indenters[0].place_mm;
     EXPECT_TRUE((place_mm.array() >= low.low_mm.array()).all() && (place_mm.array() <= 15).all());
   }
-  side.bringBack(loads, answers);
+  side.mapBack(loads, answers);
   for (std::size_t i = 0; i < 40; ++i) {
     if (i == 7) continue;
     const bool right = loads[i].indenters[0].place_mm.x() > 15, back = loads[i].indenters[0].place_mm.y() > 15;
@@ -105,25 +105,25 @@ TEST(LowSide, HoldsATouchOrItsImage) {
   EXPECT_EQ(answers.displacements[7].upper_mm.size(), 0);
 }
 
-TEST(LowSide, IsAllOfADesignWithoutMirrorsAndOfTouchesOnOneSide) {
+TEST(SymmetryReduction, IsAllOfADesignWithoutMirrorsAndOfTouchesOnOneSide) {
   SensorDesign design = paperDesign();
   TouchRange range = touchesOf(design);
   range.high_mm.x() = 15;
-  EXPECT_EQ(LowSide(design, range).of(range).low_mm, range.low_mm);
-  EXPECT_EQ(LowSide(design, range).of(range).high_mm, Eigen::Vector2d(15, 15));
+  EXPECT_EQ(SymmetryReduction(design, range).of(range).low_mm, range.low_mm);
+  EXPECT_EQ(SymmetryReduction(design, range).of(range).high_mm, Eigen::Vector2d(15, 15));
   design.upper.along_mm[0][0] += 0.1;
   design.lower.along_mm[0][0] += 0.1;
-  EXPECT_TRUE(LowSide(design, range).empty());
-  EXPECT_TRUE(LowSide(design).empty());
+  EXPECT_TRUE(SymmetryReduction(design, range).empty());
+  EXPECT_TRUE(SymmetryReduction(design).empty());
 }
 
-TEST(LowSide, OfAreasKeepsThoseThatOthersAreImagesOf) {
+TEST(SymmetryReduction, OfAreasKeepsThoseThatOthersAreImagesOf) {
   SensorDesign design = paperDesign(); // three columns, two rows
   const std::vector<int> all{0, 1, 2, 3, 4, 5}, last{5};
-  EXPECT_EQ(LowSide(design).of(all), (std::vector{0, 1}));
-  EXPECT_EQ(LowSide(design).of(last), std::vector{0});
+  EXPECT_EQ(SymmetryReduction(design).of(all), (std::vector{0, 1}));
+  EXPECT_EQ(SymmetryReduction(design).of(last), std::vector{0});
   design.forceRange.low_N.x() = -0.5; // its image is another range
-  EXPECT_EQ(LowSide(design).of(all), (std::vector{0, 1, 2}));
+  EXPECT_EQ(SymmetryReduction(design).of(all), (std::vector{0, 1, 2}));
 }
 
 TEST(DesignMirror, IsNoneWhereAnElectrodeHasNoImage) {

@@ -78,16 +78,16 @@ TEST(MovingTouch, WandersRestsAndIsHeldAndTellsWhereItIs) {
   const auto hand = std::make_shared<TouchHand>();
   touch.follow(hand);
   touch.at(2);
-  ASSERT_TRUE(hand->told(2));
-  EXPECT_EQ(hand->told(2)->place_mm, touch.truth(2).place_mm);
+  ASSERT_TRUE(hand->at(2));
+  EXPECT_EQ(hand->at(2)->place_mm, touch.truth(2).place_mm);
   SimulatedTouch::Truth held;
   held.place_mm = Eigen::Vector2d(10, 20);
   held.force_N = {1, 0, -3}; // nothing holds it sideways
   hand->hold(held);
   const Eigen::MatrixXd there = touch.at(2.1);
-  EXPECT_EQ(hand->told(2.1)->force_N, Eigen::Vector3d(0, 0, -3));
+  EXPECT_EQ(hand->at(2.1)->force_N, Eigen::Vector3d(0, 0, -3));
   EXPECT_EQ(there, touch.resistances_ohm(held));
-  EXPECT_EQ(hand->told(2)->place_mm, touch.truth(2).place_mm) << "of that time";
+  EXPECT_EQ(hand->at(2)->place_mm, touch.truth(2).place_mm) << "of that time";
 }
 
 TEST(MovingTouch, RefusesTouchesThatDifferInWords) {

@@ -1,4 +1,4 @@
-#include "app/study/touch/LowSide.h"
+#include "app/study/touch/SymmetryReduction.h"
 
 #include <algorithm>
 #include <optional>
@@ -17,7 +17,7 @@ bool isBeyond(const LoadCase& load, const DesignMirror& mirror) {
 
 } // namespace
 
-LowSide::LowSide(const SensorDesign& design, const TouchRange& touches) {
+SymmetryReduction::SymmetryReduction(const SensorDesign& design, const TouchRange& touches) {
   for (const int axis : {0, 1}) {
     const double middle_mm = design.block_mm(axis) / 2;
     if (touches.low_mm(axis) >= middle_mm || touches.high_mm(axis) <= middle_mm) continue;
@@ -25,14 +25,14 @@ LowSide::LowSide(const SensorDesign& design, const TouchRange& touches) {
   }
 }
 
-LowSide::LowSide(const SensorDesign& design) {
+SymmetryReduction::SymmetryReduction(const SensorDesign& design) {
   for (const int axis : {0, 1}) {
     if (design.forceRange.low_N(axis) != -design.forceRange.high_N(axis)) continue;
     if (auto mirror = mirrorOf(design, axis)) mirrors_.push_back(std::move(*mirror));
   }
 }
 
-TouchRange LowSide::of(TouchRange touches) const {
+TouchRange SymmetryReduction::of(TouchRange touches) const {
   for (const DesignMirror& mirror : mirrors_) {
     double& low_mm = touches.low_mm(mirror.axis);
     low_mm = std::min(low_mm, mirror.length_mm - touches.high_mm(mirror.axis));
@@ -41,7 +41,7 @@ TouchRange LowSide::of(TouchRange touches) const {
   return touches;
 }
 
-std::vector<int> LowSide::of(std::span<const int> areas) const {
+std::vector<int> SymmetryReduction::of(std::span<const int> areas) const {
   std::vector<LoadCase> loads;
   for (const int area : areas) loads.push_back({.areas = {{area}}, .patches = {}});
   std::set<int> found;
@@ -49,7 +49,7 @@ std::vector<int> LowSide::of(std::span<const int> areas) const {
   return {found.begin(), found.end()};
 }
 
-std::vector<LoadCase> LowSide::of(std::span<const LoadCase> loads) const {
+std::vector<LoadCase> SymmetryReduction::of(std::span<const LoadCase> loads) const {
   std::vector<LoadCase> result(loads.begin(), loads.end());
   for (LoadCase& load : result)
     for (const DesignMirror& mirror : mirrors_)
@@ -57,7 +57,7 @@ std::vector<LoadCase> LowSide::of(std::span<const LoadCase> loads) const {
   return result;
 }
 
-void LowSide::bringBack(std::span<const LoadCase> loads, ConductionBatch::Answers& answers) const {
+void SymmetryReduction::mapBack(std::span<const LoadCase> loads, ConductionBatch::Answers& answers) const {
   for (std::size_t i = 0; i < answers.displacements.size(); ++i) {
     if (answers.displacements[i].upper_mm.size() == 0) continue;
     for (const DesignMirror& mirror : mirrors_) // they commute, and each leaves the other's side as it is
