@@ -17,7 +17,7 @@ class ClockText {
 public:
   explicit ClockText(std::string_view text) : rest_(text) {}
 
-  /// A whole number of at most so many digits.
+  /// A whole number of at most N digits.
   std::optional<int> number(std::size_t mostDigits) {
     std::size_t digits = 0;
     while (digits < rest_.size() && rest_[digits] >= '0' && rest_[digits] <= '9') ++digits;

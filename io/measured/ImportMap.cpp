@@ -101,7 +101,7 @@ std::string replaced(std::string text, const std::string& mark, int number) {
   return text;
 }
 
-/// A list of columns, or one name in which {row} and {column} stand for the numbers of the wires.
+/// A list of columns, or one name in which {row} and {column} are replaced by the numbers of the wires.
 void readWires(const JsonPlace& place, ImportMap& map) {
   const JsonPlace columns = place.at("columns");
   const auto count = [&place](const char* key, int otherwise) {

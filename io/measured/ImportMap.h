@@ -36,7 +36,7 @@ struct ImportedClock {
   double offset_s = 0; ///< added
 };
 
-/// Values that stand in one table. With a clock of their own they are interpolated to the times of the readings,
+/// Values of one table. With a clock of their own they are interpolated to the times of the readings,
 /// without one they belong to the readings' rows.
 struct ImportedGroup {
   int table = 0; ///< from 0

@@ -201,7 +201,7 @@ double ImportedRows::clockFactor(Table& table, const ImportedClock& clock) {
 void ImportedRows::addGroup(Group& group, const ImportedGroup& source, Quantity quantity, const char* key) {
   group.key = key;
   if (source.values.empty()) return;
-  if (source.clock) { // read by itself, from its first row to its last
+  if (source.clock) { // read separately, from its first row to its last
     group.own = std::make_unique<Table>();
     group.own->file = files_[static_cast<std::size_t>(source.table)];
     group.own->source = openTable(group.own->file, map_.form);

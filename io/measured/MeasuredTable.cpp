@@ -14,7 +14,7 @@ using namespace std::string_view_literals;
 
 namespace {
 
-/// A kind of file that is no table, by its first bytes, and the way out.
+/// A kind of file other than a table, by its first bytes, and the way out.
 struct OtherKind {
   std::string_view begins;
   const char* advice;

@@ -33,7 +33,7 @@ struct TableLayout {
 TableLayout findLayout(const std::vector<NumberedLine>& lines, const TableForm& form, const std::string& file);
 
 /// The fields of a line, without blanks and quotes around them. Separators within quotes do not separate; a blank as
-/// separator stands for any number of blanks and tabs.
+/// separator means any number of blanks and tabs.
 void splitFields(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 /// Blank, or nothing but separators.

@@ -90,7 +90,7 @@ private:
     return true;
   }
 
-  /// As many fields as columns. More are no fault where they are empty, or words after the rows of a table without
+  /// As many fields as columns. More are accepted where they are empty, or words after the rows of a table without
   /// names.
   void requireWidth(std::vector<std::string>& problems) {
     std::size_t count = fields_.size();

@@ -55,7 +55,7 @@ private:
   std::stop_token stop_;
   std::uint64_t fileBytes_ = 0;
   int file_ = -1, socket_ = -1;
-  mutable std::map<std::string, std::vector<std::uint64_t>> datasets_; ///< once asked for
+  mutable std::map<std::string, std::vector<std::uint64_t>> datasets_; ///< once requested
   mutable pid_t process_ = -1;                                         ///< -1: has ended
   mutable std::mutex one_;                                             ///< question and answer
 };
