@@ -53,7 +53,7 @@ SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::pat
   head.origin.seed = 0;
   head.origin.perArea = 0; // of no request
   head.origin.mesh = kImportedFrom + printableName(table.filename().string());
-  head.origin.signals = map.law.kind == ReadingLaw::Kind::Signal;
+  head.origin.ofSignals = map.law.kind == ReadingLaw::Kind::Signal;
   head.rowWires = map.rowWires;
   head.electrodesPerRowWire = design != nullptr ? design->electrodesPerRowWire() : 1;
   head.columnWires = map.columnWires;
@@ -66,7 +66,7 @@ SampleSet headOf(const ImportMap& map, const SensorDesign* design, const fs::pat
   return head;
 }
 
-/// The area that a row belongs to. `problem` says what is wrong with it, if anything.
+/// The area that a row belongs to. `problem` gets what is wrong with it, if anything.
 int areaOf(const ImportMap& map, const ImportedRow& row, std::string& problem) {
   if (map.area) {
     if (!(row.area >= 0 && row.area < map.areaCount) || row.area != std::floor(row.area))
@@ -256,7 +256,7 @@ private:
       result_.warnings.push_back(std::to_string(result_.leftOut) + " of " + shortText(all) + " rows were left out");
     result_.runs = std::max<std::size_t>(1, numbers_.size());
     forces_.warn(map_, request_.design, result_.warnings);
-    const bool signals = block_.origin.signals;
+    const bool signals = block_.origin.ofSignals;
     result_.constant = readings_.inWords(
         [this, signals](Eigen::Index i) {
           return (signals ? "S_r" : "R_r") + std::to_string(i / block_.columnWires) + "_c" +

@@ -132,7 +132,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
   if (head.has("readings")) {
     const std::string readings = head.text("readings");
     if (readings != kSignals) refuseKey(lines, "readings", shown(readings), kSignals);
-    origin.signals = true;
+    origin.ofSignals = true;
   }
   if (head.has("made_by")) origin.madeBy = head.text("made_by");
   return origin;
@@ -142,7 +142,7 @@ SampleOrigin readOrigin(const SampleLines& lines, HeadLines& head) {
 void readColumns(const SampleLines& lines, const std::string& line, SampleSet& set) {
   const auto rowWires = static_cast<Eigen::Index>(set.rowWires);
   const bool displacements = line.find(",u_r") != std::string::npos;
-  const bool resistances = line.find(set.origin.signals ? ",S_r" : ",R_r") != std::string::npos;
+  const bool resistances = line.find(set.origin.ofSignals ? ",S_r" : ",R_r") != std::string::npos;
   const bool touches = !set.origin.touches.empty(); // with places of their own
   set.times_s.resize(line.starts_with("area,time_s,") ? 1 : 0, 0);
   set.runs.resize(line.starts_with("area,run,") || line.starts_with("area,time_s,run,") ? 1 : 0, 0);
@@ -213,7 +213,7 @@ std::string sampleFileHead(const SampleSet& set) {
   line("kind", origin.surrogate ? kSurrogate : kFullSolves);
   line("surrogate_error", text(origin.surrogateError));
   line("first_sample", std::to_string(origin.firstSample));
-  if (origin.signals) line("readings", kSignals);
+  if (origin.ofSignals) line("readings", kSignals);
   if (!origin.madeBy.empty()) line("made_by", origin.madeBy);
   line("row_wires", std::to_string(set.rowWires));
   line("electrodes_per_row_wire", std::to_string(set.electrodesPerRowWire));
@@ -241,8 +241,8 @@ std::string sampleColumns(const SampleSet& set) {
         names += ",u_r" + std::to_string(r) + "_e" + std::to_string(e) + "_" + axis + "_mm";
   for (int r = 0; r < set.rowWires && set.resistances_ohm.rows() > 0; ++r)
     for (int c = 0; c < set.columnWires; ++c)
-      names += (set.origin.signals ? ",S_r" : ",R_r") + std::to_string(r) + "_c" + std::to_string(c) +
-               (set.origin.signals ? "" : "_ohm");
+      names += (set.origin.ofSignals ? ",S_r" : ",R_r") + std::to_string(r) + "_c" + std::to_string(c) +
+               (set.origin.ofSignals ? "" : "_ohm");
   return names;
 }
 

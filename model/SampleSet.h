@@ -26,7 +26,7 @@ struct SampleOrigin {
   std::size_t firstSample = 0; ///< index of the first sample within the complete request; above 0 only in shards
   std::optional<Readout> readout = {}; ///< that the resistances are of; none: by Eq. (1), where wires do not meet
   std::string touches{};               ///< distribution of the indenters, as text; empty where areas are loaded
-  bool signals = false; ///< the readings are not resistances: any sign, and differences from rest in place of ratios
+  bool ofSignals = false; ///< the readings are not resistances: any sign, and differences from rest in place of ratios
   std::string madeBy{}; ///< program and instruction set, which decide the last digits; several by "; ". Empty: unknown
 
   /// Measured by another rig: `mesh` is kImportedFrom and the name of its table, and the fingerprint need not be of a
@@ -57,7 +57,7 @@ struct SampleSet {
   Eigen::MatrixXd
       secondTouch; ///< kSecondTouchRows x samples where two touches press together: the second, and its force
   Eigen::MatrixXd displacements_mm; ///< (3 electrodes row-wires) x samples; row 3 (r E + e) + d
-  Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c. With origin.signals: signals
+  Eigen::MatrixXd resistances_ohm;  ///< (row-wires column-wires) x samples; row r C + c. With origin.ofSignals: signals
 
   [[nodiscard]] Eigen::Index size() const { return forces_N.cols(); }
   [[nodiscard]] bool hasTouches() const { return touches.rows() > 0; }

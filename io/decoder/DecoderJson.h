@@ -23,7 +23,7 @@ Eigen::VectorXd readVector(const JsonPlace& place);
 Eigen::MatrixXd readMatrix(const JsonPlace& place);
 std::vector<int> readIntegers(const JsonPlace& place);
 RbfNetwork readRbf(const JsonPlace& place);
-/// Of a network of measured rows, which reads what a stage makes of so many readings.
+/// Of a network of measured rows, which reads what a stage makes of the readings.
 MeasuredTraining readMeasured(const JsonPlace& place, const RbfNetwork& network, Eigen::Index readings);
 ForwardModel readForwardModel(const JsonPlace& place);
 KernelForwardModel readKernelForwardModel(const JsonPlace& place);

@@ -79,8 +79,8 @@ std::vector<SampleArray> sampleArrays(const SampleSet& head) {
                       {asSize(head.rowWires), asSize(head.electrodesPerRowWire), 3},
                       &SampleSet::displacements_mm});
   if (head.resistances_ohm.rows() > 0)
-    arrays.push_back({head.origin.signals ? "signals" : "resistances_ohm",
-                      head.origin.signals ? "as measured" : "ohm",
+    arrays.push_back({head.origin.ofSignals ? "signals" : "resistances_ohm",
+                      head.origin.ofSignals ? "as measured" : "ohm",
                       {asSize(head.rowWires), asSize(head.columnWires)},
                       &SampleSet::resistances_ohm});
   return arrays;

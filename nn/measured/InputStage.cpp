@@ -23,7 +23,7 @@ Eigen::MatrixXd InputStage::transformed(const Eigen::Ref<const Eigen::MatrixXd>&
   return readings;
 }
 
-Eigen::MatrixXd InputStage::signals(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const {
+Eigen::MatrixXd InputStage::rememberedOf(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const {
   if (weights.size() == 0) return transformed;
   return (weights * transformed).colwise() + constant;
 }
@@ -40,7 +40,7 @@ Eigen::MatrixXd InputStage::apply(const Eigen::Ref<const Eigen::MatrixXd>& readi
   if (!hasMemory()) return direct;
   if (clock_s.rows() == 0 && readings.cols() > 0)
     throw NetworkError("the network has a memory and needs the time of each sample");
-  const Eigen::MatrixXd all = signals(direct);
+  const Eigen::MatrixXd all = rememberedOf(direct);
   Eigen::MatrixXd result(inputs(readings.rows()), readings.cols());
   result.topRows(readings.rows()) = direct;
   MemoryStates states(times_s, longestGap_s);

@@ -31,7 +31,7 @@ struct InputStage {
   [[nodiscard]] Eigen::Index inputs(Eigen::Index readings) const;
 
   [[nodiscard]] Eigen::MatrixXd transformed(const Eigen::Ref<const Eigen::MatrixXd>& readings) const;
-  [[nodiscard]] Eigen::MatrixXd signals(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const;
+  [[nodiscard]] Eigen::MatrixXd rememberedOf(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const;
   /// The same for readings that have been held for long: the differences are 0.
   [[nodiscard]] Eigen::MatrixXd held(const Eigen::Ref<const Eigen::MatrixXd>& readings) const;
   /// Inputs x samples from readings x samples. `clock_s` and `runs` (1 x samples; no rows: no clock, one run) are
@@ -50,7 +50,7 @@ public:
   /// The next sample begins a new run: all states are its signals.
   void reset() { started_ = false; }
   /// Signals minus their states after this sample, the first time constant first: (signals times) numbers.
-  const Eigen::VectorXd& next(double time_s, const Eigen::Ref<const Eigen::VectorXd>& signals);
+  const Eigen::VectorXd& next(double time_s, const Eigen::Ref<const Eigen::VectorXd>& values);
   /// Adds `change` to the signals before and all states, as where readings were tared.
   void shift(const Eigen::VectorXd& change);
   /// Whether less than the longest time constant has passed since the run began.

@@ -156,7 +156,7 @@ TEST_F(MeasuredTableTest, ForcesOfAnotherClockAreInterpolated) {
   EXPECT_EQ(imported.samples + imported.leftOut, 40u);
   const SampleSet set = loadSamples(output);
   for (Eigen::Index i = 0; i < set.size(); ++i) EXPECT_NEAR(set.forces_N(2, i), -20 * set.times_s(0, i), 1e-4);
-  EXPECT_TRUE(set.origin.signals);
+  EXPECT_TRUE(set.origin.ofSignals);
 }
 
 TEST_F(MeasuredTableTest, SeveralTablesOfOneFormAreRuns) {
