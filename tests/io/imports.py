@@ -7,10 +7,12 @@ Used by CTest: python3 imports.py PALP
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 
+import h5py
 import numpy as np
 import pandas as pd
 
@@ -212,17 +214,61 @@ def check_broken_tables():
     refused(".", good, "folder")
     with open("sparse.csv", "w") as sparse:
         sparse.truncate(10 << 30)
-    refused("sparse.csv", good, "sparse.csv, line 1", "4 MB")
+    refused("sparse.csv", good, "sparse.csv, line 1", "zero byte")
     with open("sparse-tail.csv", "w") as sparse:
         sparse.write(open("table.csv").read())
         sparse.truncate(10 << 30)
-    refused("sparse-tail.csv", good, "sparse-tail.csv, line 302", "4 MB")
+    refused("sparse-tail.csv", good, "sparse-tail.csv, line 302", "zero byte")
     os.remove("sparse.csv")
     os.remove("sparse-tail.csv")
     np.savez("short.npz", F=np.zeros((5, 3)), R=np.ones((4, 12)))
-    refused("short.npz", good, "rows")
+    refused("short.npz", mapped("short.json", area=None, time=None,
+                                forces={"columns": ["F[0]", "F[1]", "F[2]"], "unit": "N"},
+                                resistances__columns=[f"R[{i}]" for i in range(12)]), "array R", "4 rows")
     np.savez("nan.npz", **{name: np.full(5, np.nan) for name in open("table.csv").readline().strip().split(",")})
     refused("nan.npz", good, "row 0", "expected a finite number")
+
+
+def mat5(name, values):
+    """A variable of a MAT file of version 5, as MATLAB's `save -v6` writes it."""
+    values = np.atleast_2d(np.asarray(values, float))
+
+    def element(kind, content):
+        return struct.pack("<II", kind, len(content)) + content + bytes(-len(content) % 8)
+    content = (element(6, struct.pack("<II", 6, 0)) + element(5, struct.pack("<ii", *values.shape)) +
+               element(1, name.encode()) + element(9, values.tobytes("F")))
+    return struct.pack("<II", 14, len(content)) + content
+
+
+def check_files_of_others():
+    """The same numbers as MAT 5, MAT 7.3, HDF5 in a group and NPZ with an array of another length."""
+    random = np.random.default_rng(6)
+    arrays = {"t": 0.1 * np.arange(50), "ch": random.uniform(1, 2, (50, 3)), "F": random.uniform(-5, 0, (50, 3))}
+    with open("five.mat", "wb") as file:
+        file.write(b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H", 0x0100) + b"IM")
+        for name, values in arrays.items():
+            file.write(mat5(name, values))
+    with h5py.File("seven.mat", "w", userblock_size=512) as file: # MATLAB's first index is HDF5's last
+        for name, values in arrays.items():
+            file[name] = np.atleast_2d(values if values.ndim == 2 else values[None, :]).T
+    with open("seven.mat", "r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file".ljust(124) + struct.pack("<H", 0x0200) + b"IM")
+    with h5py.File("group.h5", "w") as file:
+        for name, values in arrays.items():
+            file["run/" + name] = values
+    np.savez("others.npz", **arrays, other=np.zeros(7))
+    results = []
+    for table, before in (("five.mat", ""), ("seven.mat", ""), ("others.npz", ""), ("group.h5", "run/")):
+        pathlib.Path("others.json").write_text(json.dumps({
+            "palp_import": 1, "signals": {"columns": [f"{before}ch[{i}]" for i in range(3)]},
+            "forces": {"columns": [f"{before}F[{i}]" for i in range(3)], "unit": "N"},
+            "time": {"column": before + "t", "unit": "s"}}))
+        made("import", table, "--map", "others.json", "-o", "others-" + table + ".csv")
+        results.append([line for line in open("others-" + table + ".csv") if not line.startswith("#")])
+    assert all(result == results[0] for result in results) and len(results[0]) == 51
+    for table in ("five.mat", "seven.mat"):
+        pathlib.Path("cut.mat").write_bytes(pathlib.Path(table).read_bytes()[:1500])
+        refused("cut.mat", "others.json", "cut.mat")
 
 
 def check_broken_maps():
@@ -240,7 +286,7 @@ def check_broken_maps():
             ({"forces__signs": [1, 1, 0]}, ("forces.signs",)),
             ({"salt": 1}, ("salt",)),
             ({"palp_import": 2}, ("palp_import", "2")),
-            ({"place": {}}, ("not both",)),
+            ({"place": {"columns": ["t", "t"], "unit": "mm", "block_mm": [1, 1], "areas": [1, 1]}}, ("not both",)),
             ({"separator": "x"}, ("separator",))):
         refused("table.csv", mapped("twin.json", **changes), "twin.json", *parts)
     pathlib.Path("twin.json").write_text("{")
@@ -251,6 +297,7 @@ def check_broken_maps():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for step in (check_numbers, check_dead_reading, check_use, check_places, check_broken_tables, check_broken_maps):
+    for step in (check_numbers, check_dead_reading, check_use, check_places, check_files_of_others, check_broken_tables,
+                 check_broken_maps):
         step()
     os.chdir("/")
