@@ -31,7 +31,7 @@ QString number(double value, int digits = 4) {
 }
 
 /// Three numbers, each no finer than a millionth of the largest: what is less is rounding.
-QString triple(const Eigen::Vector3d& values) {
+QString componentsText(const Eigen::Vector3d& values) {
   const double least = 1e-6 * values.cwiseAbs().maxCoeff();
   QStringList texts;
   for (const double value : values) texts << number(std::abs(value) < least ? 0 : value);
@@ -39,8 +39,9 @@ QString triple(const Eigen::Vector3d& values) {
 }
 
 QString contactWords(const Indenter& indenter, int index, const IndenterState& now) {
-  QString words =
-      QObject::tr("Indenter %1: %2 N, moved by %3 mm").arg(index).arg(triple(now.force_N), triple(now.translation_mm));
+  QString words = QObject::tr("Indenter %1: %2 N, moved by %3 mm")
+                      .arg(index)
+                      .arg(componentsText(now.force_N), componentsText(now.translation_mm));
   if (!(now.contactArea_mm2 > 0)) return words + ".";
   words += QObject::tr("; contact radius %1 mm, area %2 mm<sup>2</sup>, %3 MPa at its centre")
                .arg(number(now.contactRadius_mm, 3), number(now.contactArea_mm2, 3), number(now.centrePressure_MPa, 3));
@@ -94,14 +95,15 @@ void ResultPanel::display(const TouchSession& session) {
     Eigen::Index node = 0;
     const double largest = session.fields()->displacement_mm.colwise().norm().maxCoeff(&node);
     if (largest > 0)
-      lines
-          << tr("Largest displacement %1 mm at %2 mm.").arg(number(largest), triple(touch.mesh()->nodes_mm.col(node)));
+      lines << tr("Largest displacement %1 mm at %2 mm.")
+                   .arg(number(largest), componentsText(touch.mesh()->nodes_mm.col(node)));
     else
       lines << tr("Nothing moves.");
   }
   Eigen::Vector3d load_N = std::min(solution->reachedLoadFraction, 1.) * touch.load().totalForce_N();
   for (const IndenterState& its : solution->state().indenters) load_N += its.force_N;
-  lines << tr("Load %1 N, reaction at the bottom %2 N.").arg(triple(load_N), triple(solution->reaction_N));
+  lines << tr("Load %1 N, reaction at the bottom %2 N.")
+               .arg(componentsText(load_N), componentsText(solution->reaction_N));
   const bool between = session.place() != session.lastPlace();
   if (between) lines.last() += tr(" (at the end; shown: %1)").arg(loadPlaceWords(session.loadFraction()));
   for (std::size_t k = 0; k < session.indenters().size(); ++k)
@@ -150,8 +152,8 @@ void ResultPanel::displayDifference(const Project& project, const TouchSession& 
     if (!match.isEmpty()) match[0] = match[0].toUpper();
     difference_->setText(tr("<b>%1:</b> %2 differs most at %3 mm: by %4 %7 (%5 instead of %6).")
                              .arg(title, QString::fromStdString(quantityName(quantity)),
-                                  triple(session.touch().mesh()->nodes_mm.col(node)), number(*most), number(now),
-                                  number(now - *most), unit) +
+                                  componentsText(session.touch().mesh()->nodes_mm.col(node)), number(*most),
+                                  number(now), number(now - *most), unit) +
                          (match.isEmpty() ? QString() : "<br>" + match + "."));
   }
   fitHeight(*difference_);
@@ -170,15 +172,16 @@ void ResultPanel::displayProbe(const TouchSession& session, int node, const Refe
          "J - 1 = %9<br>stress xx, yy, zz = %10 MPa<br>xy, yz, xz = %11 MPa<br>principal stretches %12")
           .arg(number(place.x()), number(place.y()), number(place.z()), number(u.x()), number(u.y()), number(u.z()),
                number(fields.pressure_MPa[node]), number(fields.vonMises_MPa[node]),
-               number(fields.volumeRatio[node] - 1, 3), triple(fields.cauchy_MPa.col(node).head<3>()),
-               triple(fields.cauchy_MPa.col(node).tail<3>()), triple(fields.principalStretches.col(node)));
+               number(fields.volumeRatio[node] - 1, 3), componentsText(fields.cauchy_MPa.col(node).head<3>()),
+               componentsText(fields.cauchy_MPa.col(node).tail<3>()),
+               componentsText(fields.principalStretches.col(node)));
   QString beside;
   if (kept != nullptr) {
     const NodalFields less = kept->at(session.loadFraction()).fields;
     beside = tr("<br><b>Compared with</b><br>u = %1 mm<br>pressure %2 MPa, von Mises %3 MPa<br>stress xx, yy, zz = %4 "
                 "MPa")
-                 .arg(triple(less.displacement_mm.col(node)), number(less.pressure_MPa[node]),
-                      number(less.vonMises_MPa[node]), triple(less.cauchy_MPa.col(node).head<3>()));
+                 .arg(componentsText(less.displacement_mm.col(node)), number(less.pressure_MPa[node]),
+                      number(less.vonMises_MPa[node]), componentsText(less.cauchy_MPa.col(node).head<3>()));
   }
   probe_->setText(words + beside);
   fitHeight(*probe_);
