@@ -8,7 +8,7 @@ namespace palp {
 
 namespace {
 
-QString triple(const Eigen::Vector3d& values) {
+QString vectorText(const Eigen::Vector3d& values) {
   return QString::fromStdString(text(values.x()) + "," + text(values.y()) + "," + text(values.z()));
 }
 
@@ -36,11 +36,11 @@ QString solveCommands(const Project& project, const QString& designFile) {
     return "palp solve " + designFile + " --loads path.json" + meshOption(project.mesh) + " -o deformed.vtu";
   QString command;
   for (const AreaLoad& load : project.load.areas)
-    command += QString(" --load %1:%2").arg(load.area).arg(triple(load.force_N));
+    command += QString(" --load %1:%2").arg(load.area).arg(vectorText(load.force_N));
   for (const PatchLoad& patch : project.load.patches)
     command += QString::fromStdString(" --patch " + text(patch.centre_mm.x()) + "," + text(patch.centre_mm.y()) + "," +
                                       text(patch.radius_mm) + ":") +
-               triple(patch.force_N);
+               vectorText(patch.force_N);
   for (const Indenter& indenter : project.load.indenters) command += " " + QString::fromStdString(asCommand(indenter));
   command += meshOption(project.mesh);
   const QString quantity = QString::fromStdString(quantityName(project.view.quantity));
