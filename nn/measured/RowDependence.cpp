@@ -43,7 +43,8 @@ Eigen::MatrixXd unitLength(const Eigen::MatrixXd& values) {
   return centred;
 }
 
-/// A line's leave-one-out errors by the ridge with the least of them, each to mean 0, deviation 1 and at most 3.
+/// A line's leave-one-out errors by the ridge with the least of them, each to mean 0, deviation 1 and at most 3; empty
+/// if no ridge gives any (readings that do not vary).
 Eigen::MatrixXd lineErrors(const Eigen::MatrixXd& readings, const Eigen::MatrixXd& targets) {
   const GroupRidge line(standardised(readings), targets);
   const Eigen::RowVectorXd variance =
@@ -68,6 +69,7 @@ Eigen::MatrixXd lineErrors(const Eigen::MatrixXd& readings, const Eigen::MatrixX
 }
 
 double neighbourCorrelation(const Eigen::MatrixXd& errors, const Eigen::VectorXi& runs) {
+  if (errors.size() == 0) return 0;
   double largest = 0;
   const double all = errors.array().square().mean();
   for (const Eigen::Index step : {1, 2, 5, 10, 20, 50}) {

@@ -63,8 +63,7 @@ void addImport(Cli& cli) {
   auto arguments = std::make_shared<ImportArguments>();
   Command command =
       cli.command("import", "Converts measured data of another rig to samples: tables as they were published.",
-                  "palp import table.csv -o samples.h5\n"
-                  "palp import channels.csv forces.csv --map map.json -o samples.h5",
+                  "palp import table.csv --map map.json -o samples.h5",
                   [arguments](Session& session) { return run(*arguments, session); });
   command
       .option("table", arguments->tables, "FILE...",

@@ -35,8 +35,7 @@ Exit run(const MergeArguments& arguments, Session& session) {
 void addMerge(Cli& cli) {
   auto arguments = std::make_shared<MergeArguments>();
   Command command = cli.command(
-      "merge",
-      "Joins the shards of a sample file; the result equals that of one run. Measured sets become runs of one set.",
+      "merge", "Joins the shards of a sample file to the result of one run, or measured sets of one rig as runs.",
       "palp merge part1.csv part2.csv -o samples.csv",
       [arguments](Session& session) { return run(*arguments, session); });
   command.option("parts", arguments->parts, "FILE", "sample files of all shards; one complete file is only rewritten")

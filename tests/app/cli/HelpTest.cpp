@@ -72,9 +72,10 @@ TEST(Help, OfEachCommandBeginsWithASentenceAndEndsWithOneExample) {
 }
 
 TEST(Help, EachOptionHasAHeadingATypeAndADescription) {
-  const std::set<std::string> flags{"--bare",   "--check",          "--dark",      "--dry-run",      "--force",
-                                    "--json",   "--list",           "--resubmit",  "--send-to-many", "--simulate",
-                                    "--submit", "--retry-problems", "--surrogate", "-h,--help"};
+  const std::set<std::string> flags{
+      "--bare",   "--check",          "--dark",      "--dry-run",      "--force",
+      "--json",   "--list",           "--resubmit",  "--send-to-many", "--simulate",
+      "--submit", "--retry-problems", "--surrogate", "-h,--help",      "--leave-out-bad-rows"};
   const std::regex type("[A-Z][A-Z0-9_.,:/@=x\\[\\]mu-]*(:\\{.*\\}|:INT)?(=.*)?");
   for (const std::string& command : commandsOfHelp())
     for (const Shown& option : shownBy(linesOfHelp({command, "--help"}))) {
