@@ -130,10 +130,12 @@ void findNames(const std::vector<NumberedLine>& lines, std::size_t first, TableL
 Fit findDialect(const std::vector<NumberedLine>& lines, const TableForm& form, TableLayout& layout) {
   Fit best;
   TableLayout tried = layout;
+  const bool quoted = std::any_of(lines.begin(), lines.end(),
+                                  [](const NumberedLine& line) { return line.text.find('"') != std::string::npos; });
   for (const char decimal : {'.', ','})
     for (const char separator : kSeparators) {
       if (form.separator.value_or(separator) != separator || form.decimal.value_or(decimal) != decimal) continue;
-      if (separator == ',' && decimal == ',') continue;
+      if (separator == ',' && decimal == ',' && !quoted) continue; // "0,5","1,5"
       tried.separator = separator;
       tried.decimal = decimal;
       const Fit fit = fitOf(lines, tried);
@@ -211,7 +213,7 @@ TableLayout findLayout(const std::vector<NumberedLine>& lines, const TableForm& 
   std::erase_if(rows, [begin](const NumberedLine& line) { return line.number < static_cast<std::size_t>(begin); });
   const Fit fit = findDialect(rows, form, layout);
   if (fit.columns == 0) throw Error(file + ": has no rows of numbers");
-  layout.columns = fit.columns;
+  layout.columns = layout.usualFields = fit.columns;
   layout.firstLine = rows[fit.first].number;
   const auto first = static_cast<std::size_t>(
       std::find_if(lines.begin(), lines.end(),

@@ -21,6 +21,7 @@ struct TableLayout {
   char separator = ',', decimal = '.';
   DateOrder dates = DateOrder::Unknown;
   std::size_t columns = 0;
+  std::size_t usualFields = 0;           ///< of a row, those at its end without content apart
   std::size_t fieldsOfNames = 0;         ///< fields of the line with the names, those at its end without a name too
   std::vector<std::string> names, units; ///< one for each column, empty where there are none
   std::size_t namesLine = 0, unitsLine = 0, firstLine = 0; ///< numbers in the file; 0: the table has none

@@ -94,12 +94,13 @@ private:
   /// names.
   void requireWidth(std::vector<std::string>& problems) {
     std::size_t count = fields_.size();
-    if (count == layout_.fieldsOfNames) return;
+    if (count == layout_.fieldsOfNames && count > largest()) return;
     while (count > layout_.columns && (fields_[count - 1].empty() ||
                                        (layout_.namesLine == 0 && !fieldNumber(fields_[count - 1], layout_.decimal))))
       --count;
     if (count == layout_.columns) return;
-    if (count < layout_.columns && layout_.namesLine == 0 && count > largest()) return;
+    if (count < layout_.columns && count > largest() && (layout_.namesLine == 0 || count == layout_.usualFields))
+      return;
     if (isCut_ && count < layout_.columns)
       problems.push_back("the file ends in the middle of this line");
     else

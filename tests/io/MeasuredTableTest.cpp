@@ -53,6 +53,7 @@ TEST_F(MeasuredTableTest, ReadsEverySeparatorAndDecimalSign) {
   EXPECT_EQ(rows("  1,5   -2 \n\n  2,5 \t 3000\n", kFirstTwo), kTwo);
   EXPECT_EQ(rows("\"a\", \"b, c\"\n\"1.5\", -2\n2.5,\"3e3\"\n", kFirstTwo), kTwo);
   EXPECT_EQ(table_->columns().at(1), "b, c");
+  EXPECT_EQ(rows("a,b\n\"1,5\",\"-2\"\n\"2,5\",\"3000\"\n", kFirstTwo), kTwo) << "decimal commas in quotes";
 }
 
 TEST_F(MeasuredTableTest, FindsNamesAndUnitsBelowAPreamble) {
@@ -64,6 +65,12 @@ TEST_F(MeasuredTableTest, FindsNamesAndUnitsBelowAPreamble) {
   EXPECT_EQ(table_->columns(), (std::vector<std::string>{"t", "F"}));
   EXPECT_EQ(rows("1.5,-2\n2.5,3000\n,\n \n", kFirstTwo), kTwo);
   EXPECT_EQ(table_->columns(), (std::vector<std::string>{"", ""}));
+}
+
+TEST_F(MeasuredTableTest, RowsMayLackTheLastColumnsThatAreNotRead) { // LabVIEW's comment
+  EXPECT_EQ(rows("***End_of_Header***\n\nX_Value\tForce\tComment\n1.5\t-2\n2.5\t3e3\n", kFirstTwo), kTwo);
+  EXPECT_TRUE(problems_.empty());
+  EXPECT_TRUE(rows("a,b,c\n1,2\n3,4\n", {{0}, {2}}).empty());
 }
 
 TEST_F(MeasuredTableTest, ReadsEveryEncoding) {
