@@ -12,6 +12,7 @@ namespace palp {
 
 namespace {
 
+constexpr std::size_t kRowsTogether = 3; ///< rows of the usual width that begin the table
 constexpr std::array kSeparators{',', ';', '\t', ' '};
 
 bool isNumeric(std::string_view field, const TableLayout& layout) {
@@ -65,7 +66,16 @@ Fit fitOf(const std::vector<NumberedLine>& lines, const TableLayout& layout) {
       fit.columns = width;
     }
   const auto isUsual = [&fit](const LineCount& count) { return count.isRow() && count.used == fit.columns; };
-  fit.first = static_cast<std::size_t>(std::find_if(counts.begin(), counts.end(), isUsual) - counts.begin());
+  // A line of a preamble may look like a row; rows follow each other.
+  std::size_t first = counts.size(), longest = 0;
+  for (std::size_t i = 0, length = 0; i < counts.size() && longest < kRowsTogether; ++i) {
+    if (counts[i].filled == 0) continue; // blank, or a comment
+    length = isUsual(counts[i]) ? length + 1 : 0;
+    if (length == 1) first = i;
+    if (length <= longest) continue;
+    longest = length;
+    fit.first = first;
+  }
   fit.score = 0;
   for (std::size_t i = fit.first; i < counts.size(); ++i)
     fit.score += 2 * static_cast<double>(counts[i].numeric) - static_cast<double>(counts[i].filled);
@@ -114,6 +124,8 @@ void findNames(const std::vector<NumberedLine>& lines, std::size_t first, TableL
     const std::string& text = lines[i].text;
     if (isEmptyLine(text, layout.separator)) continue;
     auto cells = isComment(text) ? commentNames(text, layout.columns) : texts(text, layout.separator, layout.columns);
+    if (!isComment(text) && countFields(text, layout).isRow())
+      continue; // a row of another width, which is refused later
     if (cells.size() < layout.columns || !areNames(cells, layout)) return;
     if (layout.unitsLine == 0 && areUnits(cells)) {
       layout.units = cells;
@@ -223,6 +235,7 @@ TableLayout findLayout(const std::vector<NumberedLine>& lines, const TableForm& 
     namesFromLine(lines, *form.namesLine, file, layout);
   else if (!form.namesLine)
     findNames(lines, first, layout);
+  if (!form.firstLine && layout.namesLine > 0) layout.firstLine = std::max(layout.namesLine, layout.unitsLine) + 1;
   layout.columns = std::max({layout.columns, layout.names.size(), layout.units.size()});
   layout.names.resize(layout.columns);
   layout.units.resize(layout.columns);

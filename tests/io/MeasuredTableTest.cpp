@@ -73,6 +73,14 @@ TEST_F(MeasuredTableTest, RowsMayLackTheLastColumnsThatAreNotRead) { // LabVIEW'
   EXPECT_TRUE(rows("a,b,c\n1,2\n3,4\n", {{0}, {2}}).empty());
 }
 
+TEST_F(MeasuredTableTest, ABadRowBelowTheNamesIsNamedAndALineOfThePreambleIsNot) {
+  EXPECT_EQ(rows("a,b\n7\n1.5,-2\n2.5,3e3\n1,2\n3,4\n", kFirstTwo).size(), 4u);
+  EXPECT_EQ(problems_.size(), 1u);
+  EXPECT_EQ(rows("Logger;A\nDate;2021\nt;F\n1,5;-2\n2,5;3e3\n", kFirstTwo), kTwo);
+  EXPECT_EQ(table_->columns().front(), "t");
+  EXPECT_TRUE(problems_.empty());
+}
+
 TEST_F(MeasuredTableTest, ReadsEveryEncoding) {
   EXPECT_EQ(rows("\xEF\xBB\xBF"
                  "a,b\n1.5,-2\n2.5,3e3\n",
