@@ -18,12 +18,12 @@
 
 namespace palp {
 
-/// Step 1 under the law of the field: the resistances at rest, and how those of the read row-wires follow the block's
-/// answer to forces on its areas, solved for these forces, to first order.
+/// Step 1 under the conduction field, to first order: the changes of ln R of the read row-wires are linear in the
+/// forces on the areas; this relation, solved for the forces, and the displacements under these forces.
 struct BlockInversion {
-  Eigen::VectorXd rest_ohm;       ///< readings
-  Eigen::MatrixXd forces_N;       ///< forces x readings: of ln R / R at rest
-  Eigen::MatrixXd modes_mm_per_N; ///< (3 electrodes of the rows) x forces
+  Eigen::VectorXd rest_ohm;       ///< of the readings
+  Eigen::MatrixXd forces_N;       ///< forces x readings: forces per change of ln R from rest
+  Eigen::MatrixXd modes_mm_per_N; ///< (3 x electrodes of the rows) x forces: displacements per force
 
   /// Displacements [mm] from resistances [ohm], one column per sample.
   [[nodiscard]] Eigen::MatrixXd displacements_mm(const Eigen::Ref<const Eigen::MatrixXd>& resistances_ohm) const {
@@ -42,39 +42,38 @@ struct TwoStep {
   RbfNetwork force; ///< step 2
 };
 
-/// Along x and y: training range of the place, and the rms error of it that was found in training.
+/// Training range of the position along x and y, and its rms error found in training.
 struct DecoderPlace {
   Eigen::VectorXd low_mm, high_mm, residual_mm;
 };
 
-/// What labelled frames of a board made of a decoder's answer: gains * answer + offset, the forces [N] and below them
-/// the place [mm].
+/// Correction of a decoder's output that labelled frames of a board determined: gains * output + offset, for the forces
+/// [N] and below them the position [mm].
 struct OutputCorrection {
   Eigen::MatrixXd gains;
   Eigen::VectorXd offset;
 };
 
-/// What a decoder reads: kind and row-wires, and their range in training.
+/// Inputs of a decoder: their kind, row-wires and range in training.
 struct DecoderInput {
   InputKind kind = InputKind::Displacement;
   std::vector<int> rows;
   int rowWires = 0;          ///< of the design
-  int valuesPerRow = 0;      ///< 3 electrodes or column-wires
+  int valuesPerRow = 0;      ///< 3 x electrodes of a row-wire, or column-wires
   Eigen::VectorXd low, high; ///< training range of each input [mm or ohm]
 };
 
-/// Of a decoder that was trained with measured rows: what it makes of the readings, and the errors that leaving out
-/// rows found, which hold for later rows (resources/docs/numerics/measured.md). Outputs are the forces, and below them
-/// the position.
+/// Part of a decoder that was trained on measured rows: its input stage, and its errors on rows left out, as estimates
+/// for later rows (resources/docs/numerics/measured.md). Outputs are the forces, and below them the position.
 struct MeasuredTraining {
   InputStage stage;
   DeviationLaw deviation;
   TrainingEllipse ellipse;
   RowDependence dependence;
-  Eigen::VectorXd stated;                   ///< rms error of each output
-  Eigen::VectorXd singleRows;               ///< what leaving out single rows would have stated
-  std::optional<Eigen::VectorXd> recording; ///< with a complete recording left out
-  double relative = 0;                      ///< stated error, of the forces' deviations
+  Eigen::VectorXd stated;                   ///< rms error of each output on rows left out
+  Eigen::VectorXd singleRows;               ///< the same with single rows left out
+  std::optional<Eigen::VectorXd> recording; ///< the same with a complete run left out
+  double relative = 0;                      ///< rms over the outputs of stated / standard deviation
   std::optional<double> relativeRecording;
 };
 
@@ -86,25 +85,25 @@ struct Decoder {
       model;
   DecoderInput input;
   std::string designFingerprint;
-  std::optional<Readout> readout; ///< of the resistances it was trained on; none: Eq. (1), or not known
+  std::optional<Readout> readout; ///< of the resistances it was trained on; nullopt: Eq. (1), or unknown
   std::string trainedWith;        ///< the command that reproduces it
   DecoderMode mode = DecoderMode::Default;
   std::uint64_t seed = 1;
   double noise = 0; ///< relative noise of the inputs it was trained with
   int areaCount = 0;
-  bool together = false;             ///< one force per area together: 3 x areas outputs
+  bool together = false;             ///< gives one force for each area at the same time: 3 x areas outputs
   std::string touches;               ///< the indenters it was trained on, as text; empty: forces on complete areas
-  std::optional<DecoderPlace> place; ///< of a decoder of force and position, whose model gives x and y after the force
-  /// Of a decoder by inversion, whose model of the readings stays as it is; none: not calibrated.
+  std::optional<DecoderPlace> place; ///< for force and position: the model outputs x and y after the force
+  /// Calibration of a decoder by inversion, whose forward model is left unchanged; nullopt: not calibrated.
   std::optional<OutputCorrection> correction;
   Eigen::VectorXd low_N, high_N;            ///< training range of each force
   Eigen::MatrixXd residual_N;               ///< forces x areas (1 where unknown): rms error found in training, per area
-  std::optional<ForwardModel> areas;        ///< finds the touched area; none for `together` or where there is one area
+  std::optional<ForwardModel> areas;        ///< determines the touched area; nullopt for `together` or with one area
   std::vector<int> areaOfClass;             ///< area of each class of `areas` (or of the maximum likelihood decoder)
-  FitReport report;                         ///< of the fit; sizes in N
-  std::optional<MeasuredTraining> measured; ///< the model reads the stage's inputs
+  FitReport report;                         ///< of the fit; errors in N
+  std::optional<MeasuredTraining> measured; ///< if set, the model takes the inputs of its stage
 
-  /// Components of the forces.
+  /// Number of force components.
   [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }
   [[nodiscard]] Eigen::Index inputs() const { return input.low.size(); }
 };

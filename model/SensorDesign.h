@@ -14,9 +14,10 @@ namespace palp {
 /// One layer of electrodes on parallel straight wires: row-wires run along x (upper layer), column-wires along y
 /// (lower layer).
 struct ElectrodeLayer {
-  std::vector<double> wire_mm;               ///< one a wire: y of a row-wire, x of a column-wire
+  std::vector<double> wire_mm;               ///< one per wire: y of a row-wire, x of a column-wire
   std::vector<std::vector<double>> along_mm; ///< along the wire (x or y): one list for all wires, or one per wire
-  std::vector<std::vector<double>> z_mm; ///< depth: {{z}} for all, or a list (one value per electrode) for each wire
+  /// Height above the bottom: {{z}} for all electrodes, or one list per wire with one value per electrode.
+  std::vector<std::vector<double>> z_mm;
 
   [[nodiscard]] int wires() const { return static_cast<int>(wire_mm.size()); }
   [[nodiscard]] int electrodesPerWire() const { return along_mm.empty() ? 0 : static_cast<int>(along_mm[0].size()); }
@@ -26,16 +27,16 @@ struct ElectrodeLayer {
   bool operator==(const ElectrodeLayer&) const = default;
 };
 
-/// Fig. 1 of the paper: the resistivity falls with the hydrostatic pressure p (by Eq. (1) that at the upper electrode,
-/// under the field that at every point), g(p) = g0 (1 + max(p, 0) / p0)^(-n). The starting values are assumed; the
-/// figure's numbers are not in the text.
+/// Fig. 1 of the paper: the resistivity g(p) = g0 (1 + max(p, 0) / p0)^(-n) falls with the hydrostatic pressure p
+/// (under Eq. (1) the pressure at the upper electrode, in the conduction field the local pressure). The default values
+/// are assumed, because the paper does not give the numbers of its figure.
 struct PressureLaw {
   double p0_MPa = 0.05;
   double exponent = 0.5;
   bool operator==(const PressureLaw&) const = default;
 };
 
-/// Rectangles of equal size on the top face: area a has column a % columns along x and row a / columns along y.
+/// Rectangles of equal size on the top face: area a is in column a % columns along x and row a / columns along y.
 struct LoadAreas {
   int columns = 3;
   int rows = 2;
@@ -48,7 +49,7 @@ struct Rectangle {
   Eigen::Vector2d high_mm;
 };
 
-/// Range of a force for sampling and for "% of range" [N]; row d of each is the direction x, y, z.
+/// Range of the force for sampling and for "% of range" [N]; the components of both vectors are along x, y and z.
 struct ForceRange {
   Eigen::Vector3d low_N{-1, -1, -6};
   Eigen::Vector3d high_N{1, 1, 0};
@@ -62,9 +63,9 @@ struct SensorDesign {
   LoadAreas areas;
   ElectrodeLayer upper;            ///< row-wires
   ElectrodeLayer lower;            ///< column-wires
-  bool lowerFollowsRubber = false; ///< the paper holds the lower electrodes still
+  bool lowerFollowsRubber = false; ///< false, as in the paper: the lower electrodes do not move
   ResistanceLaw resistance;
-  std::optional<PressureLaw> pressureLaw; ///< of the resistivity, under either law
+  std::optional<PressureLaw> pressureLaw; ///< of the resistivity, under Eq. (1) and in the conduction field
   ForceRange forceRange;
 
   [[nodiscard]] int rowWires() const { return upper.wires(); }
@@ -77,12 +78,12 @@ struct SensorDesign {
   /// Positions 3 x (column-wires * electrodes) [mm] at rest; electrode j of column-wire k is column k * electrodes + j.
   [[nodiscard]] Eigen::Matrix3Xd lowerElectrodes_mm() const;
   [[nodiscard]] Rectangle areaRectangle(int area) const;
-  /// The law of the field, or none where Eq. (1) holds.
+  /// Returns the parameters of the conduction field, or nullptr if the design uses Eq. (1).
   [[nodiscard]] const FieldLaw* field() const { return std::get_if<FieldLaw>(&resistance); }
   bool operator==(const SensorDesign&) const = default;
 };
 
-/// The row-wire in the middle, counted from 0; the lower of two: row 4 of the paper's ten.
+/// Returns the middle row-wire, counted from 0; of two middle ones the lower: row 4 of the paper's ten.
 constexpr int centreRowWire(int rowWires) {
   return (rowWires - 1) / 2;
 }
@@ -90,27 +91,27 @@ constexpr int centreRowWire(int rowWires) {
 /// The preset `paper`: the paper's sections 3 and 4.2; depths and positions are our choice (resources/docs/physics.md).
 SensorDesign paperDesign();
 
-/// One thing that is wrong: the key of the design file and a sentence with the value and what is allowed.
+/// One fault of a design: its key in the design file, and a sentence with the value and the expected range.
 struct DesignFault {
   std::string key;
   std::string sentence;
 };
 
-/// Everything that is wrong with the design, in the order of the file; empty if it can be built.
+/// Returns all faults of the design, in the order of the file; empty if it can be built.
 std::vector<DesignFault> check(const SensorDesign& design);
 
-/// Why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire); empty if it is
-/// one.
+/// Returns the reason why Eq. (1) is not a square system for a row-wire (column-wires != 3 x electrodes of a row-wire);
+/// nullopt if it is square.
 std::optional<std::string> whyNotSquare(const SensorDesign& design);
 
-/// What can be built but should be known, a sentence each: electrodes so near to each other that small spheres with
+/// Returns warnings about a valid design, one sentence each: electrodes so near to each other that small spheres with
 /// dipoles are no longer a good model of them.
 std::vector<std::string> designWarnings(const SensorDesign& design);
 
-/// Throws DesignError with the first fault, if there is one.
+/// Throws DesignError with the first fault if the design is invalid.
 void requireValid(const SensorDesign& design);
 
-/// Throws DesignError where the design has the law of the field, as `what` requires Eq. (1).
+/// Throws DesignError if the design uses the conduction field; `what` names the computation that requires Eq. (1).
 void requirePairs(const SensorDesign& design, const std::string& what);
 
 } // namespace palp

@@ -13,7 +13,7 @@
 
 namespace palp {
 
-/// How the weights are found.
+/// How the linear system of the weights is solved.
 enum class LeastSquaresMethod {
   PivotedQr,    ///< column-pivoted QR, directions below rcond dropped
   Cholesky,     ///< with a ridge of at least 1e-12
@@ -29,15 +29,16 @@ inline std::string name(LeastSquaresMethod method) {
   return kLeastSquaresMethods.name(method);
 }
 
-/// Where the Gaussians sit.
+/// How the centres of the Gaussians are chosen.
 enum class CenterChoice { Samples, KMeans, Random };
-/// Those that choose among the samples; all of them is a number of centres, not a way to choose.
+/// Names of the two that choose some of the samples. Samples (all of them) has no name: it follows from the number of
+/// centres.
 inline constexpr NamedEnum kCenterChoices("choice of centres", std::array{std::pair{CenterChoice::KMeans, "kmeans"},
                                                                           std::pair{CenterChoice::Random, "random"}});
-/// Default number of centres.
+/// Default limit of the number of centres.
 inline constexpr int kMostCenters = 600;
 
-/// What is added to the Gaussians.
+/// Terms added to the Gaussians.
 enum class Tail {
   None,
   Bias,
@@ -50,34 +51,34 @@ inline constexpr NamedEnum kTails("tail", std::array{std::pair{Tail::None, "none
 
 struct RbfOptions {
   Scaling scaling = Scaling::Global;
-  /// Whiten: the power that raises small components. Empty: 0.25, 0.5 or 0.75, chosen by leave-one-out if spread or
-  /// ridge is chosen that way too, else 0.5.
+  /// Scaling::Whiten: the exponent by which small components are amplified. Empty: 0.25, 0.5 or 0.75, chosen by
+  /// leave-one-out if spread or ridge is chosen that way too, else 0.5.
   std::optional<double> whitening;
   CenterChoice centers = CenterChoice::Samples;
-  int centerCount = 0;          ///< KMeans, Random: how many; 0: kMostCenters at most. Samples: all
-  std::optional<double> spread; ///< empty: by leave-one-out
+  int centerCount = 0;          ///< for KMeans and Random; 0: at most kMostCenters. Samples uses all samples
+  std::optional<double> spread; ///< empty: chosen by leave-one-out
   SpreadConvention convention = SpreadConvention::Radbas;
   Tail tail = Tail::Linear;
-  double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights against the Gaussians'
+  double tailVariance = 100; ///< LinearPenalised: prior variance of the tail's weights relative to the Gaussians'
   LeastSquaresMethod method = LeastSquaresMethod::PivotedQr;
-  std::optional<double> ridge = 0.0; ///< empty: by leave-one-out over 1e-13..10
+  std::optional<double> ridge = 0.0; ///< empty: chosen by leave-one-out over 1e-13..10
   double rcond = 1e-15;
   double forgetting = 1; ///< Recursive: factor in (0, 1]
-  /// Relative standard deviation of each input (sigma_i = |x_i| * it); 0: clean. Copies of the samples with noise of
-  /// this size are what the network is fitted to.
+  /// Relative standard deviation of the noise of each input (sigma_i = |x_i| * relativeInputNoise). If above 0, the
+  /// network is fitted to noiseCopies copies of the samples with this noise.
   double relativeInputNoise = 0;
   int noiseCopies = 10;
   bool leaveOneOut = true; ///< report the leave-one-out error (costs about as much as the fit)
   std::uint64_t seed = 1;
-  int threads = 0; ///< 0: as many as there are cores; the result is the same
+  int threads = 0; ///< 0: all cores; changes the time, never the result
 };
 
-/// What came out of a fit, and what one needs to know to trust it.
+/// Chosen parameters of a fit, and figures to judge it by.
 struct FitReport {
   double spread = 0;
   double ridge = 0;
   int centers = 0;
-  double condition = 0; ///< estimate, of the system that was solved
+  double condition = 0; ///< estimated condition number of the system that was solved
   int rank = 0;
   double largestWeight = 0;
   Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one per output; empty: not requested
@@ -91,8 +92,8 @@ struct RbfFit {
   FitReport report;
 };
 
-/// Fits a network to samples (inputs x samples) and targets (outputs x samples). Throws NetworkError for data from
-/// which no network can be made, and Cancelled.
+/// Fits a network to samples (inputs x samples) and targets (outputs x samples). Throws NetworkError if no
+/// network can be fitted to the data, and Cancelled if stopped.
 RbfFit trainRbf(const Eigen::Ref<const Eigen::MatrixXd>& samples, const Eigen::Ref<const Eigen::MatrixXd>& targets,
                 const RbfOptions& options = {}, const std::stop_token& stop = {});
 

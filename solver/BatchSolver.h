@@ -15,28 +15,28 @@ namespace palp {
 
 struct BatchOptions {
   double relativeTolerance = 1e-6; ///< of the electrode displacements against full Newton's method
-  bool surrogate = false;          ///< use a polynomial in the force per area, whose error is measured
+  bool surrogate = false;          ///< use one polynomial in the force per area, whose error is measured
   int threads = 0;                 ///< 0: all cores; changes the time, never the result
   /// Part of the top face that indenters will touch, if not all of it: the compliance is computed there only, and
   /// touches that extend beyond it are solved by full Newton.
   std::optional<Rectangle> touched{};
   /// Skips loads that do not converge (they have no electrodes) instead of throwing ConvergenceError.
   bool skipFailed = false;
-  bool checkFirst = true; ///< compare the first load with full Newton; false: another solver of these loads does
+  bool checkFirst = true; ///< compare the first load with full Newton; false if another BatchSolver does so
 };
 
 /// Solves many loads on one mesh by modified Newton iterations with one factorisation, that of the tangent at rest, for
 /// 32 right-hand sides together (LoadBatch), from predictors fitted to a fixed set of loads. A load that does not
-/// converge so is solved by full Newton. Each load passes through these strategies, the first that succeeds:
+/// converge this way is solved by full Newton. The first of these strategies that succeeds gives the result of a load:
 ///
 ///   Surrogate     a polynomial in the force on one area (AreaSurrogate), if requested
 ///   Iteration     modified Newton; contact of indenters is solved on the compliance of the top face in each iteration,
 ///                 with friction in the load increments that full Newton would take (ColumnContact)
 ///   FullNewton    HyperelasticProblem::solve; always for friction together with loaded areas or discs
 ///
-/// and a fixed fraction of the answers is compared with full Newton. The answer to a load is the same to the last byte
-/// whatever other loads are solved with it, in any order and on any number of threads.
-/// Where to read more: resources/docs/numerics/many-loads.md.
+/// A fixed fraction of the results is compared with full Newton. The result of a load has the same bytes whichever
+/// other loads are solved with it, in any order and on any number of threads. Method:
+/// resources/docs/numerics/many-loads.md.
 class BatchSolver {
 public:
   explicit BatchSolver(const HyperelasticProblem& problem, BatchOptions options = {});
@@ -50,10 +50,10 @@ public:
                                                           const std::function<void(std::size_t)>& progress = {},
                                                           std::stop_token stop = {}, std::size_t firstNumber = 0);
 
-  /// Receives a load's number in the call, its electrodes and its state (all nodes; the elements' unknowns only where
-  /// the design has a pressure law). Called by any thread, several at a time.
+  /// Receives a load's number in the call, its electrodes and its state (all nodes; the elements' unknowns only if
+  /// the design has a pressure law). Called from any thread, also concurrently.
   using TakeState = std::function<void(std::size_t, const ElectrodeDisplacements&, const LoadIncrement&)>;
-  /// As `solve`, with the states and without surrogates.
+  /// As `solve`, but passes each state to `take` and does not use surrogates.
   [[nodiscard]] std::vector<ElectrodeDisplacements> solveStates(std::span<const LoadCase> loads, const TakeState& take,
                                                                 const std::function<void(std::size_t)>& progress = {},
                                                                 std::stop_token stop = {}, std::size_t firstNumber = 0);
@@ -74,13 +74,13 @@ public:
 
   /// Number of nonlinear solves so far (for predictors, corrections and fallbacks).
   [[nodiscard]] std::size_t solves() const;
-  /// Number of loads solved by full Newton's method so far, checks apart.
+  /// Number of loads solved by full Newton's method so far, not counting checks.
   [[nodiscard]] std::size_t leftToNewton() const;
-  /// Largest relative error of what the readings follow (electrodes of both layers, pressures, resistances) against
-  /// full Newton's method over the loads checked so far; nullopt if none was.
+  /// Largest relative error against full Newton's method over the loads checked so far, of all quantities that
+  /// determine the readings (electrodes of both layers, pressures, resistances); nullopt if no load was checked.
   [[nodiscard]] std::optional<double> measuredError() const;
-  /// Checked loads for which full Newton's method finds another equilibrium, with the distance, or none: with friction
-  /// on a mesh too coarse for the contact the equilibrium is not unique.
+  /// Checked loads for which full Newton's method finds another equilibrium (with the distance) or does not converge:
+  /// with friction, on a mesh too coarse for the contact, the equilibrium is not unique.
   [[nodiscard]] const std::vector<std::string>& nonUniqueLoads() const;
 
 private:

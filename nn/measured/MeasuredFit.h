@@ -18,20 +18,21 @@ namespace palp {
 struct DeviationLaw {
   Eigen::VectorXd a, b, range;
 
-  /// Targets x samples.
+  /// Returns the deviations, targets x samples, from predicted targets of the same shape.
   [[nodiscard]] Eigen::MatrixXd at(const Eigen::Ref<const Eigen::MatrixXd>& predicted) const;
 };
 
-/// Inputs far from those that were trained: squared distance in their covariance above `limit`.
+/// Detects inputs far from the training inputs: their squared Mahalanobis distance exceeds `limit`.
 struct TrainingEllipse {
-  Eigen::VectorXd offset; ///< of the scaled inputs
+  Eigen::VectorXd offset; ///< mean of the scaled training inputs
   Eigen::MatrixXd inverseCovariance;
   double limit = 0;
 
+  /// Returns the squared Mahalanobis distance.
   [[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& scaled) const;
 };
 
-/// What is prescribed; what is not is chosen by the validation.
+/// Prescribed settings; empty ones are chosen by cross-validation.
 struct MeasuredOptions {
   std::optional<RowOrder> order;
   std::optional<ReadingTransform> transform;
@@ -40,41 +41,42 @@ struct MeasuredOptions {
   bool lineOnly = false;                       ///< no Gaussians
   std::optional<double> spread;                ///< of the Gaussians, where the mean square length of the inputs is 1
   std::optional<double> ridge;                 ///< lambda of GroupRidge
-  std::optional<int> centers;                  ///< at most; none: 500
-  Eigen::Index forces = -1; ///< number of first targets that are forces, whose size counts for deviations; -1: all
+  std::optional<int> centers;                  ///< largest number of centres; nullopt: 500
+  Eigen::Index forces = -1; ///< the first targets, this many, are forces, whose size enters the deviations; -1: all
   std::uint64_t seed = 1;
 };
 
-/// How the error was found and what it is; errors without a unit are shares of the targets' deviations.
+/// Estimated errors and how they were found; errors without a unit are shares of the targets' standard deviations.
 struct MeasuredValidation {
   RowDependence dependence;
-  Eigen::VectorXd stated;               ///< rms error of each target, in its unit
-  double score = 0;                     ///< rms over the varying targets of stated / deviation
-  double singleRowScore = 0;            ///< what leaving single rows out would have stated
-  Eigen::VectorXd singleRow;            ///< the same in units
-  std::optional<double> recordingScore; ///< with a complete run left out, where there are 2 to 4 runs
-  Eigen::VectorXd recording;            ///< the same in units
-  bool noClock = false;                 ///< rows depend on their neighbours, but there is no time: no memory was tried
+  Eigen::VectorXd stated;               ///< rms error of each target on rows left out, in its unit
+  double score = 0;                     ///< rms of stated / standard deviation over the targets that vary
+  double singleRowScore = 0;            ///< the same with single rows left out
+  Eigen::VectorXd singleRow;            ///< `stated` with single rows left out
+  std::optional<double> recordingScore; ///< the score with a complete run left out, if there are 2 to 4 runs
+  Eigen::VectorXd recording;            ///< `stated` with a complete run left out
+  bool noClock = false;                 ///< rows depend on each other but have no times: no memory was tried
   double lambda = 0;
-  Eigen::Index rows = 0;  ///< that were fitted; of a longer table every k-th
+  Eigen::Index rows = 0;  ///< number of rows fitted; of a longer table every k-th row or run
   Eigen::MatrixXd errors; ///< left-out errors, targets x rows fitted
   std::vector<Eigen::Index> fittedRows;
 };
 
-/// A network of measured rows, its inputs and its errors.
+/// A network trained on measured rows, with its inputs and its errors.
 struct MeasuredFit {
   InputStage stage;
-  RbfNetwork network; ///< of the stage's inputs; without centres: a line
+  RbfNetwork network; ///< its inputs are those of the stage; without centres it is a linear model
   DeviationLaw deviation;
   TrainingEllipse ellipse;
-  Eigen::VectorXd low, high; ///< predictions are limited to them: the training range and 10 % on both sides
+  Eigen::VectorXd low, high; ///< limits of predictions: the training range extended by 10 % on both sides
   MeasuredValidation validation;
 };
 
-/// Chooses transform, memory, line or Gaussians, spread and ridge by what errs least on rows that are left out together
-/// as their dependence demands; within 2 % of the least error (0.5 % for independent rows) the one with the fewest
-/// states, then the plainest (resources/docs/numerics/measured.md). The same seed gives the same bytes. Throws
-/// NetworkError for rows from which no network can be made, and Cancelled. `progress` gets a share 0..1.
+/// Chooses transform, memory, line or Gaussians, spread and ridge by grouped cross-validation, and fits the network.
+/// Rows that depend on each other are left out together. Among the candidates within 2 % of the smallest error (0.5 %
+/// for independent rows), the one with the fewest time constants is chosen, then the one with the plainest features
+/// (resources/docs/numerics/measured.md). The same seed gives the same bytes. Throws NetworkError if no network can be
+/// fitted to the rows, and Cancelled if stopped. `progress` receives the share of the work that is done, 0 to 1.
 MeasuredFit fitMeasured(const MeasuredRows& rows, const MeasuredOptions& options, const std::stop_token& stop = {},
                         const std::function<void(double)>& progress = {});
 

@@ -13,16 +13,16 @@
 
 namespace palp {
 
-/// Inputs x samples: the rows' displacements [mm] or resistances [ohm] out of a set. Throws Error where the set has
-/// other sizes than the input needs.
+/// Returns a decoder's inputs from a set, inputs x samples: displacements [mm] or resistances [ohm] of its row-wires.
+/// Throws Error if the sizes of the set do not match.
 Eigen::MatrixXd inputsOf(const SampleSet& samples, const DecoderInput& input);
 
-/// What a decoder's stage makes of the inputs of a set: its transform and its memory of what was before, run by run.
-/// Throws Error where a memory has no times, or rows out of order.
+/// Applies the decoder's input stage (transform and memory) to the inputs of a set, run by run. Throws Error if a
+/// memory has no times, or if rows are out of order.
 Eigen::MatrixXd stagedInputs(const Decoder& decoder, const SampleSet& samples, const Eigen::MatrixXd& inputs);
 
-/// What presses, as far as the readings tell it: nothing that is seen above the noise, one touch as they were learned,
-/// or neither of these: two together, another body.
+/// What the readings indicate: no touch above the noise, one touch of the trained kind, or something else (two touches
+/// together, another body).
 enum class Pressing { None, One, Other };
 const char* name(Pressing pressing); ///< none, one, other
 
@@ -30,17 +30,17 @@ const char* name(Pressing pressing); ///< none, one, other
 struct Prediction {
   Eigen::MatrixXd forces_N;
   Eigen::MatrixXd standardDeviation_N;    ///< of each force: training error and input noise; empty: not requested
-  Eigen::MatrixXd places_mm;              ///< 2 x samples: of the touch; empty: the decoder gives none
+  Eigen::MatrixXd places_mm;              ///< 2 x samples: position of the touch; empty: not determined
   Eigen::MatrixXd placeDeviation_mm;      ///< of each position; empty: not requested
-  Eigen::VectorXd indenterSize_mm;        ///< of the touch, estimated with it; empty: the decoder does not
-  std::vector<bool> outsideTrainingRange; ///< some input lies outside what was trained
+  Eigen::VectorXd indenterSize_mm;        ///< estimated with the touch; empty: not determined
+  std::vector<bool> outsideTrainingRange; ///< whether some input lies outside its training range
   Eigen::VectorXi area;                   ///< most likely touched area; empty: not determined
   Eigen::VectorXd areaConfidence;         ///< its probability
-  /// Mean square of what the most likely touch leaves of the inputs, in their standard deviations (noise and model);
-  /// empty without a forward model.
+  /// Mean square of the residuals of the inputs after the most likely touch, in units of their standard deviations
+  /// (noise and model); empty without a forward model.
   Eigen::VectorXd chiSquare;
-  std::vector<Pressing> pressing;   ///< empty: the decoder does not tell
-  Eigen::MatrixXd likely_N;         ///< forces of that touch, where they are not the decoder's own
+  std::vector<Pressing> pressing;   ///< empty: not determined
+  Eigen::MatrixXd likely_N;         ///< forces of the most likely touch, if they differ from the decoder's own
   double microsecondsPerSample = 0; ///< of the forces alone
   std::vector<std::string> warnings;
 };
@@ -51,48 +51,49 @@ struct PredictOptions {
   bool area = true;
 };
 
-/// For many calls: keeps what a decoder and a noise share. The decoder must outlive it.
+/// Predicts for many calls: keeps what depends on decoder and noise only. The decoder must outlive it.
 class Predictor {
 public:
   explicit Predictor(const Decoder& decoder, const PredictOptions& options = {});
-  /// Inputs x samples. Throws Error where the number of inputs differs.
-  /// Of a decoder with a memory: for readings that have been held for long.
+  /// Predicts from inputs x samples. Throws Error if the number of inputs differs.
+  /// For a decoder with a memory, each sample is taken as held for a long time.
   [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs) const;
-  /// The same with what the decoder's stage makes of the inputs (stage inputs x samples).
+  /// The same, with the outputs of the decoder's input stage for these inputs (stage inputs x samples).
   [[nodiscard]] Prediction operator()(const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                                       const Eigen::Ref<const Eigen::MatrixXd>& staged) const;
 
 private:
   const Decoder& decoder_;
   PredictOptions options_;
-  std::optional<LikelihoodInversion> inversion_; ///< of the forces, or of the touched area alone
+  std::optional<LikelihoodInversion> inversion_; ///< for the forces, or for the touched area only
   std::shared_ptr<KernelForwardModel> touches_;  ///< with the noise of the options
   std::optional<KernelInversion> touchInversion_;
 };
 
-/// Forces from inputs (inputs x samples, as inputsOf gives them). Throws Error where the number of inputs differs.
+/// Predicts forces from inputs (inputs x samples, as inputsOf returns them). Throws Error if the number of inputs
+/// differs.
 Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                    const PredictOptions& options = {});
-/// The same from a set; warns where the set is of another design.
+/// The same from a set; the result has a warning if the set belongs to another design.
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
 
-/// What makes the samples another thing than the decoder was trained for: their design, touches in place of forces on
-/// complete areas. Sentences for readers; empty if there is no difference.
+/// Returns how the samples differ from those the decoder was trained for (another design, touches instead of forces on
+/// complete areas), one sentence each; empty if they do not.
 std::vector<std::string> otherSamples(const Decoder& decoder, const SampleSet& samples);
 
-/// Throws Error where the network's read-out and this one are both known and are not the same; `whatIs`: "the board
-/// is".
+/// Throws Error if the network's read-out and this one are both known and differ. `whatIs` begins the clause about this
+/// one in the message: "the board is".
 void requireReadout(const Decoder& decoder, const std::optional<Readout>& readout, const std::string& whatIs);
 
-/// Of the places of touches.
+/// Errors of the decoded positions of touches.
 struct PlaceError {
   Eigen::Vector2d rms_mm = Eigen::Vector2d::Zero(); ///< along x and y
-  double median_mm = 0;                             ///< of the distances
+  double median_mm = 0;                             ///< median distance from the true position
   std::optional<double> withinOneDeviation;         ///< share of the coordinates (0.68 expected)
 };
 
-/// Errors against the forces in the set, in % of the training range; where areas or places were determined, the share
-/// of right areas, the errors of the places.
+/// Errors against the forces in the set, in % of the training range; if areas or positions were determined, also the
+/// share of correct areas and the errors of the positions.
 struct DecoderError {
   PredictionError error;
   std::optional<double> rightAreas;

@@ -16,72 +16,74 @@ namespace palp {
 
 /// Forces of one frame of a board.
 struct DecodedForces {
-  bool valid = false;        ///< false: for the `reason`, and there are no forces
-  std::string reason;        ///< which wires are bad, or that the frame is incomplete
-  int readings = 0;          ///< that the decoder takes
-  int missingReadings = 0;   ///< of them; the force was found without, and its deviations are wider
+  bool valid = false;        ///< false: there are no forces, for the given `reason`
+  std::string reason;        ///< why the frame is not valid: bad wires, an incomplete frame
+  int readings = 0;          ///< number that the decoder takes
+  int missingReadings = 0;   ///< of these; the force is found without them, with larger deviations
   Eigen::Matrix3Xd forces_N; ///< 3 x 1, of the touched area; `together`: 3 x areas
-  /// Of each: noise of frame and tare, error of the training, at rest, and what a calibration left.
+  /// Of each force: from the noise of frame and tare, the training error, the error at rest, and the error that a
+  /// calibration left.
   Eigen::Matrix3Xd standardDeviation_N;
-  /// Of each, whether the decoder gives it: the others are 0 with a deviation of 0. Empty: all.
+  /// Whether the decoder gives each component; the others are 0 with a deviation of 0. Empty: all.
   Eigen::Array<bool, 3, Eigen::Dynamic> measured;
-  std::vector<bool> shown; ///< of the columns: exceeds the noise
-  std::optional<int> area; ///< most likely touched, where the decoder determines it
+  std::vector<bool> shown; ///< per column: whether the force exceeds the noise
+  std::optional<int> area; ///< most likely touched area, if the decoder determines it
   double areaConfidence = 0;
-  /// Of the touch on the top face and its deviations, where the decoder gives it and the force exceeds the noise.
+  /// Position of the touch on the top face and its deviations, if the decoder gives it and the force exceeds the noise.
   std::optional<Eigen::Vector2d> place_mm, placeDeviation_mm;
-  std::optional<double> indenterSize_mm; ///< of that touch, where the decoder finds it
-  bool outsideTrainingRange = false;     ///< of the forces; of the readings where there is no forward model
+  std::optional<double> indenterSize_mm; ///< of that touch, if the decoder determines it
+  bool outsideTrainingRange = false;     ///< of the forces, or without a forward model of the readings
   std::optional<double> misfit;          ///< Plausibility::Verdict::misfit
-  bool doubted = false;                  ///< the forces of this frame can hardly be true
-  std::string doubt;                     ///< why forces are doubted for a while now; empty where they are not
-  Eigen::MatrixXd resistances_ohm; ///< tared, row-wires x column-wires; meaningful in the rows that the decoder reads
+  bool doubted = false;                  ///< the forces of this frame are implausible
+  std::string doubt;                     ///< why recent forces are implausible; empty if they are plausible
+  Eigen::MatrixXd resistances_ohm;       ///< tared, row-wires x column-wires; valid in the rows that the decoder reads
 
   /// Whether the decoder gives this component.
   [[nodiscard]] bool measures(Eigen::Index axis, Eigen::Index column) const {
     return measured.size() == 0 || measured(axis, column);
   }
-  /// For who shows or keeps forces_N or standardDeviation_N: NaN where a component is not measured.
+  /// Returns `values` (forces_N or standardDeviation_N) for display or storage, with NaN for components not measured.
   [[nodiscard]] Eigen::Matrix3Xd measuredAlone(const Eigen::Matrix3Xd& values) const;
 };
 
-/// Resistances of a board's frames to forces. No bad reading reaches the decoder: where readings are missing (a wire is
-/// broken, a report is lost) the others give the force, with wider deviations, as long as they are half of all. Tare is
-/// the host's: each resistance is scaled so that the board at rest reads as the design at rest does.
+/// Computes forces from the frames of a board. Bad readings do not reach the decoder: if readings are missing (a wire
+/// is broken, a report is lost), the others give the force, with larger deviations, as long as they are at least half
+/// of all. The tare is computed here, not on the board: each resistance is scaled so that the board at rest has the
+/// readings of the design at rest.
 class ForceDecoder {
 public:
-  /// `design` gives the resistances at rest for tare; none: the paper's where the decoder is of it. Throws Error where
-  /// the decoder cannot read this board, in a sentence.
+  /// `design` gives the resistances at rest for the tare; nullopt: those of the paper's design, if the decoder was
+  /// trained for it. Throws Error if the decoder cannot read this board.
   ForceDecoder(Decoder decoder, const BoardInfo& info, std::optional<SensorDesign> design = {});
 
   [[nodiscard]] DecodedForces decode(const BoardFrame& frame);
 
-  /// Averages the good readings of the next frames that give forces, and starts over while the sensor moves; throws
-  /// Error where the design at rest is not known.
+  /// Starts to average the good readings of the next `frames` frames that give forces; restarts while the readings
+  /// move. Throws Error if the resistances of the design at rest are unknown.
   void startTare(int frames);
   [[nodiscard]] bool taring() const { return tareLeft_ > 0; }
   [[nodiscard]] bool tared() const { return tared_; }
-  /// How many were finished.
+  /// Number of finished tares.
   [[nodiscard]] int tares() const { return tares_; }
-  /// The one that holds.
+  /// The tare in use.
   [[nodiscard]] const Tare& tare() const { return tare_; }
-  /// One that was made before, also with another network; passed over where rest is not known.
+  /// Uses an earlier tare, also one made with another network. Ignored if its size is not that of the design at rest.
   void setTare(const Tare& tare);
   void clearTare();
-  /// Why taring is impossible; empty where it is possible.
+  /// Returns why taring is impossible; empty if it is possible.
   [[nodiscard]] std::string tareProblem() const;
 
-  /// What a sensor at rest reads as where all its readings have gone by this factor since [N]; 0 where rest is not
-  /// known, or where the network gives several forces together.
+  /// Returns the force [N] that a sensor at rest appears to have after all readings have changed by the share
+  /// `relative`; 0 if the resistances at rest are unknown, or if the network gives several forces together.
   [[nodiscard]] Eigen::Vector3d drifted_N(double relative) const;
 
-  /// Relative noise of the readings: measured while taring, before that from frame to frame, and then no less than the
-  /// decoder was trained for.
+  /// Relative noise of the readings: measured by the tare; before the first tare from frame to frame, but not below the
+  /// noise that the decoder was trained for.
   [[nodiscard]] double noise() const { return noise_; }
   [[nodiscard]] const Decoder& decoder() const { return *decoder_; }
-  /// The largest range of the forces that it was trained for.
+  /// Width of the largest force range in training.
   [[nodiscard]] double range_N() const { return (decoder_->high_N - decoder_->low_N).maxCoeff(); }
-  /// Of the design, row-wires x column-wires [ohm]; empty where it is not known.
+  /// Of the design, row-wires x column-wires; empty if unknown.
   [[nodiscard]] const Eigen::MatrixXd& restResistances_ohm() const { return rest_ohm_; }
 
 private:
@@ -99,17 +101,17 @@ private:
              const PresentReadings& readings, DecodedForces& decoded);
 
   std::unique_ptr<const Decoder> decoder_;
-  std::optional<Predictor> predictor_; ///< for the noise now
+  std::optional<Predictor> predictor_; ///< for the present noise
   PredictOptions predictorOptions_;
-  std::unique_ptr<PartialPredictor> fewer_; ///< the same where readings are missing; made when first needed
-  std::optional<MemoryStates> memory_;      ///< of a decoder with one
-  Eigen::Matrix3Xd restError_N_; ///< prediction of the decoder for the design at rest: there the truth is zero
+  std::unique_ptr<PartialPredictor> fewer_; ///< the same for missing readings; made when first needed
+  std::optional<MemoryStates> memory_;      ///< if the decoder has a memory
+  Eigen::Matrix3Xd restError_N_;            ///< prediction for the design at rest, where the true force is zero
   Eigen::Array<bool, 3, Eigen::Dynamic> measured_;
   Eigen::Matrix3Xd calibrationError_N_;
   NoiseMeter meter_;
   std::optional<Plausibility> plausibility_;
-  double predictedNoise_ = 0; ///< that the predictor counts with
-  Eigen::MatrixXd rest_ohm_;  ///< of the design, row-wires x column-wires; empty: not known
+  double predictedNoise_ = 0; ///< used by the predictor
+  Eigen::MatrixXd rest_ohm_;  ///< of the design, row-wires x column-wires; empty: unknown
   Eigen::MatrixXd factor_;    ///< by which each raw resistance is scaled
   Eigen::MatrixXd tareFirst_, tareSum_, tareSquares_, tareCounts_;
   Tare tare_;
