@@ -134,7 +134,7 @@ MatFile::MatFile(std::filesystem::path path) : path_(std::move(path)) {
     }
     return;
   }
-  Mat_LogInitFunc("palp", [](int, char*) {}); // what is wrong is reported here
+  Mat_LogInitFunc("palp", [](int, auto*) {}); // what is wrong is reported here
   file_ = Mat_Open(path_.c_str(), MAT_ACC_RDONLY);
   if (file_ == nullptr) refuse("is damaged or cut off: not a complete MAT file");
   while (const Variable variable{Mat_VarReadNextInfo(matOf(file_))})

@@ -170,7 +170,7 @@ TEST_F(Heartbeat, BeatsWhileReporting) {
   auto& run = find<QPushButton>("runReport");
   auto& kinds = find<QComboBox>("reportKind");
   kinds.setCurrentIndex(kinds.findText("Networks"));
-  ASSERT_EQ(kinds.currentText(), "networks");
+  ASSERT_EQ(kinds.currentText(), "Networks");
   expectFree(
       "reporting", [&] { click("runReport"); }, [waited = 0]() mutable { return ++waited > 100; });
   ASSERT_FALSE(run.isEnabled()) << "the report has ended: " << find<QLabel>("reportState").text().toStdString();
