@@ -6,7 +6,8 @@
 #include "model/base/Error.h"
 #include "tests/fuzz/FuzzedFile.h"
 
-#include <numeric>
+#include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -20,12 +21,15 @@ void readSamples(const std::string& path) {
 
 void readTable(const std::string& path) {
   try {
-    const auto table = palp::openTable(path, ',');
-    std::vector<std::size_t> all(table->columns().size());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<double> values;
-    for (int row = 0; row < 1000 && table->next(all, values); ++row)
-      if (values.size() != all.size()) std::abort();
+    const auto table = palp::openTable(path, {});
+    std::vector<palp::ChosenColumn> all(table->columns().size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].column = i;
+    std::vector<double> values(all.size());
+    std::vector<std::string> problems;
+    table->choose(all);
+    for (int row = 0; row < 1000 && table->next(values, problems); ++row)
+      if (problems.empty() && !std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+        std::abort();
   } catch (const palp::Error&) { // a refusal is an answer
   }
 }
