@@ -20,6 +20,7 @@ struct ImportRequest {
   std::filesystem::path output{};       ///< the sample file
   bool force = false;                   ///< replaces an existing output file
   bool leaveOutBadRows = false; ///< as `bad_rows` of the map: skips and counts rows with words or missing values
+  std::string mapText{};        ///< JSON of a map, in place of the file `map`; empty: none
 };
 
 /// Result of importSamples.
@@ -42,10 +43,16 @@ struct Imported {
 Imported importSamples(const ImportRequest& request, const std::function<void(double)>& progress,
                        const std::stop_token& stop);
 
+/// The same without writing: everything that importSamples would refuse, note or warn of, except about the output.
+Imported checkImport(const ImportRequest& request, const std::function<void(double)>& progress,
+                     const std::stop_token& stop);
+
 /// An import map as JSON text, to be edited and passed as a file, and its assumptions, one sentence each.
 struct GuessedMap {
   std::string json;
   std::vector<std::string> assumed;
+  std::string
+      missing{}; ///< readings or forces that the names do not identify: a sentence; empty if the map is complete
 };
 /// Guesses the map from the names of the columns. Throws Error if they do not identify readings and forces.
 GuessedMap guessImportMap(const std::vector<std::filesystem::path>& tables);

@@ -1,6 +1,8 @@
 #include "io/SampleFile.h"
 
 #include "io/SampleHead.h"
+#include "io/samples/Hdf5Child.h"
+#include "io/samples/Npz.h"
 #include "io/samples/SampleArrays.h"
 #include "io/samples/SampleReader.h"
 #include "io/samples/SampleWriter.h"
@@ -9,6 +11,7 @@
 #include "model/base/GotExpected.h"
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace palp {
@@ -103,6 +106,18 @@ void saveSamples(const fs::path& path, const SampleSet& set, bool force, const s
     writer.append(block(first, std::min(kSamplesAtOnce, set.size() - first)));
   }
   writer.finish(stop);
+}
+
+bool hasSampleArrays(const fs::path& path) {
+  constexpr const char* key = "palp_samples";
+  try {
+    std::ifstream stream(path, std::ios::binary);
+    std::string begin(2, '\0');
+    stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return begin == "PK" ? npzArrays(path).contains(key) : Hdf5Child(path).attributes().contains(key);
+  } catch (const Error&) {
+    return true;
+  }
 }
 
 SampleSet loadSamples(const fs::path& path, const std::stop_token& stop, bool alsoTwoAtOnce) {

@@ -21,6 +21,10 @@ std::string sampleFileHead(const SampleSet& set);
 /// nothing.
 void saveSamples(const std::filesystem::path& path, const SampleSet& set, bool force, const std::stop_token& stop = {});
 
+/// Whether a file of arrays, HDF5 or NPZ, has the head of samples. True for a damaged file, so that its reader reports
+/// what is wrong.
+bool hasSampleArrays(const std::filesystem::path& path);
+
 /// Reads strictly: a wrong count of numbers, anything that is not a finite number, or a truncated line throws Error
 /// with the line number (in files of arrays with the sample's). Throws Cancelled after a request to stop. Samples of
 /// two touches together only if requested.

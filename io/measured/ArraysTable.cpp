@@ -4,6 +4,7 @@
 #include "io/samples/Npz.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
+#include "model/base/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostColumns = 200'000;
+constexpr std::size_t kColumnsShown = 2000; ///< of which the first rows are read to be shown
 constexpr std::uint64_t kMostRows = std::uint64_t{1} << 40;
 constexpr std::uint64_t kBlock_numbers = 1 << 16; ///< of an HDF5 file, read together
 
@@ -95,6 +97,31 @@ void ArraysTable::add(const std::string& name, const std::vector<std::uint64_t>&
 
 void ArraysTable::requireArrays() const {
   if (arrays_.empty()) throw Error(path_.string() + ": has no arrays of numbers with a row per sample");
+}
+
+std::vector<TableArray> ArraysTable::arrays() const {
+  std::vector<TableArray> all;
+  for (const Array& array : arrays_) all.push_back({array.name, array.rows, array.firstColumn, array.row.size()});
+  return all;
+}
+
+/// Array by array, because they may have different numbers of rows.
+std::vector<std::vector<std::string>> ArraysTable::firstRows(std::size_t count) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<double> values;
+  for (const TableArray& array : arrays()) {
+    if (array.columns == 0 || array.firstColumn + array.columns > kColumnsShown) continue;
+    std::vector<ChosenColumn> all;
+    for (std::size_t i = 0; i < array.columns; ++i) all.push_back({array.firstColumn + i});
+    choose(std::move(all));
+    values.resize(array.columns);
+    std::vector<std::string> ignored;
+    for (std::size_t r = 0; r < count && next(values, ignored); ++r) {
+      if (rows.size() == r) rows.emplace_back(columns_.size());
+      for (std::size_t i = 0; i < array.columns; ++i) rows[r][array.firstColumn + i] = shortText(values[i]);
+    }
+  }
+  return rows;
 }
 
 void ArraysTable::choose(std::vector<ChosenColumn> chosen) {

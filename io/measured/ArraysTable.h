@@ -14,6 +14,8 @@ class ArraysTable : public MeasuredTable {
 public:
   [[nodiscard]] const std::vector<std::string>& columns() const override { return columns_; }
   [[nodiscard]] std::vector<std::string> units() const override { return std::vector<std::string>(columns_.size()); }
+  [[nodiscard]] std::vector<TableArray> arrays() const override;
+  [[nodiscard]] std::vector<std::vector<std::string>> firstRows(std::size_t count) override;
   void choose(std::vector<ChosenColumn> chosen) override;
   bool next(std::span<double> values, std::vector<std::string>& problems) override;
   [[nodiscard]] std::string where() const override;

@@ -1,6 +1,6 @@
+#include "io/ImportDraft.h"
 #include "io/ImportSamples.h"
 #include "io/StrictJson.h"
-#include "io/measured/MeasuredTable.h"
 #include "io/measured/Units.h"
 #include "model/base/Error.h"
 
@@ -43,24 +43,20 @@ std::string_view withoutUnit(std::string_view name) {
   return name.substr(0, at);
 }
 
-std::vector<NamedColumn> columnsOf(const std::vector<fs::path>& tables) {
+/// Those with names; of tables that repeat the columns of the first one, which are further runs, none.
+std::vector<NamedColumn> columnsOf(const std::vector<TablePreview>& tables) {
   std::vector<NamedColumn> all;
-  std::vector<std::string> first;
+  const auto names = [](const TablePreview& table) {
+    std::vector<std::string> of;
+    for (const TablePreview::Column& column : table.columns) of.push_back(column.name);
+    return of;
+  };
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    const auto table = openTable(tables[t], {});
-    const std::vector<std::string>& names = table->columns();
-    if (t == 0) first = names;
-    if (t > 0 && names == first) continue; // another run
-    const std::vector<std::string> units = table->units();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i].empty()) continue;
-      auto unit = knownUnit(units[i]);
-      if (!unit) unit = unitInName(names[i]);
-      all.push_back({static_cast<int>(t) + 1, names[i], bareName(withoutUnit(names[i])), unit, table->isDate(i)});
-    }
+    if (t > 0 && names(tables[t]) == names(tables[0])) continue;
+    for (const auto& [name, unit, date] : tables[t].columns)
+      if (!name.empty())
+        all.push_back({static_cast<int>(t) + 1, name, bareName(withoutUnit(name)), knownUnit(unit), date});
   }
-  if (all.empty())
-    throw Error(tables.front().string() + ": has no names of columns; a map (--map) names them by number, from 1");
   return all;
 }
 
@@ -68,6 +64,7 @@ class Guess {
 public:
   explicit Guess(std::vector<NamedColumn> columns) : columns_(std::move(columns)) {}
 
+  /// As far as the names decide: `missing` of the result is what they do not.
   GuessedMap map(const fs::path& table) {
     OrderedJson map{{"palp_import", 1}};
     const auto fx = take({"fx", "forcex", "xforce", "shearx"}), fy = take({"fy", "forcey", "yforce", "sheary"});
@@ -80,11 +77,10 @@ public:
     readings(map, table);
     if (fx || fy || fz) forces(map, fx, fy, fz);
     if (x && y) place(map, *x, *y);
-    if (!map.contains("forces") && !map.contains("place"))
-      refuse(table, "forces (Fx, Fy, Fz or F) or positions (x, y)");
+    if (!map.contains("forces") && !map.contains("place")) miss(table, "forces (Fx, Fy, Fz or F) or positions (x, y)");
     if (const auto time = times_.find(readingsTable_); time != times_.end()) map["time"] = clock(time->second);
     if (run) map["run"] = run->name;
-    return {jsonText(map, 2) + "\n", assumed_};
+    return {jsonText(map, 2) + "\n", assumed_, missing_};
   }
 
 private:
@@ -106,7 +102,8 @@ private:
       times_.try_emplace(time->table, *time);
   }
 
-  [[noreturn]] void refuse(const fs::path& table, const std::string& what) const {
+  void miss(const fs::path& table, const std::string& what) {
+    if (!missing_.empty()) return;
     std::string names;
     for (const NamedColumn& column : columns_) {
       if (names.size() > 100) {
@@ -115,8 +112,8 @@ private:
       }
       names += (names.empty() ? "" : ", ") + column.name.substr(0, 40);
     }
-    throw Error(table.string() + ": no columns are named as " + what +
-                (names.empty() ? "" : "; the others are " + names) + ". A map (--map) states their meaning");
+    missing_ = table.string() + ": no columns are named as " + what +
+               (names.empty() ? "" : "; the others are " + names) + ". A map (--map) states their meaning";
   }
 
   /// Which table the group is in, and its own clock where that is not the readings' table.
@@ -211,7 +208,7 @@ private:
         Family single{{{{0, 0}, &*one}}};
         return family(map, single, table);
       }
-    refuse(table, "readings (R0_3, ch1, V0)");
+    miss(table, "readings (R0_3, ch1, V0)");
   }
 
   void family(OrderedJson& map, Family family, const fs::path& table) {
@@ -227,7 +224,7 @@ private:
       group["row_wires"] = rows;
       group["column_wires"] = count / static_cast<std::size_t>(rows);
     } else if (count > 255) {
-      refuse(table, "readings of a complete grid (R0_0 to R9_29)");
+      return miss(table, "readings of a complete grid (R0_0 to R9_29)");
     }
     const bool ohm = one->unit && one->unit->quantity == Quantity::Resistance;
     const bool resistances = ohm || (!one->unit && (one->bare.starts_with("r") || one->bare.starts_with("ohm")));
@@ -248,14 +245,29 @@ private:
 
   std::vector<NamedColumn> columns_;
   std::vector<std::string> assumed_;
+  std::string missing_;
   std::map<int, NamedColumn> times_; ///< by table
   int readingsTable_ = 1;
 };
 
 } // namespace
 
+GuessedMap guessPartOfMap(const std::vector<TablePreview>& tables) {
+  std::vector<NamedColumn> columns = columnsOf(tables);
+  const bool noNames = columns.empty();
+  GuessedMap guessed = Guess(std::move(columns)).map(tables.front().file);
+  if (noNames)
+    guessed.missing =
+        tables.front().file.string() + ": has no names of columns; a map (--map) names them by number, from 1";
+  return guessed;
+}
+
 GuessedMap guessImportMap(const std::vector<fs::path>& tables) {
-  return Guess(columnsOf(tables)).map(tables.front());
+  std::vector<TablePreview> heads;
+  for (const fs::path& table : tables) heads.push_back(previewTable(table, {}, 0));
+  GuessedMap guessed = guessPartOfMap(heads);
+  if (!guessed.missing.empty()) throw Error(guessed.missing);
+  return guessed;
 }
 
 } // namespace palp

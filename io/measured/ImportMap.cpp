@@ -240,7 +240,7 @@ std::string shownColumn(const ColumnName& column) {
   return "column \"" + std::get<std::string>(column) + "\"";
 }
 
-ImportMap importMapFrom(Json json, const std::string& file) {
+ImportMap importMapFrom(Json json, const std::string& file, bool unfinished) {
   const JsonPlace root(json, file);
   formatVersion(root, "palp_import", kNewestMap);
   root.onlyKeys({"palp_import"},
@@ -248,14 +248,16 @@ ImportMap importMapFrom(Json json, const std::string& file) {
                  "area", "place", "time", "run", "bad_rows", "longest_gap_s", "about"});
   ImportMap map;
   readForm(root, map.form);
-  if (root.has("resistances") == root.has("signals")) root.refuse("\"resistances\" or \"signals\", one of both");
+  const bool both = root.has("resistances") && root.has("signals");
+  if (both || (!unfinished && !root.has("resistances") && !root.has("signals")))
+    root.refuse("\"resistances\" or \"signals\", one of both");
   if (root.has("resistances"))
     readResistances(root.at("resistances"), map);
-  else
+  else if (root.has("signals"))
     readSignals(root.at("signals"), map);
   if (root.has("forces"))
     readForces(root.at("forces"), map);
-  else if (!root.has("place"))
+  else if (!root.has("place") && !unfinished)
     root.refuse("\"forces\", \"place\", or both");
   if (root.has("area") && root.has("place") && root.at("place").has("areas"))
     root.at("place").refuse("\"area\" or \"place\" with \"areas\", not both");
@@ -278,7 +280,8 @@ ImportMap importMapFrom(Json json, const std::string& file) {
     map.leaveOutBadRows = what == "leave out";
   }
   for (const ImportedGroup* group : {&map.forces_N, &map.places_mm})
-    if (group->clock && !map.time) root.refuse("\"time\" of the readings, to which other values are interpolated");
+    if (group->clock && !map.time && !unfinished)
+      root.refuse("\"time\" of the readings, to which other values are interpolated");
   for (const char* key : kKeysOfTheTable) json.erase(key);
   map.fingerprint = "measured-" + fingerprint(jsonText(json));
   return map;

@@ -85,8 +85,8 @@ struct ImportMap {
 };
 
 /// Reads a map (resources/docs/formats.md, Import). `file` is for refusals. Throws Error: file, key, value, and what is
-/// expected.
-ImportMap importMapFrom(Json json, const std::string& file);
+/// expected. An unfinished map may lack readings, forces and positions.
+ImportMap importMapFrom(Json json, const std::string& file, bool unfinished = false);
 ImportMap readImportMap(const std::filesystem::path& path);
 
 } // namespace palp

@@ -1,5 +1,6 @@
 #include "io/measured/MeasuredTable.h"
 
+#include "io/ImportDraft.h"
 #include "model/base/Error.h"
 
 #include <array>
@@ -47,15 +48,25 @@ std::string firstBytes(const fs::path& path) {
   return begin;
 }
 
-/// A zip file: NPZ, or the sheets of a spreadsheet.
-std::unique_ptr<MeasuredTable> openZip(const fs::path& path, std::string_view begin) {
-  const bool named = begin.size() > 30;
-  const std::string_view first = named ? begin.substr(30, 60) : std::string_view{};
-  if (first.find("[Content_Types].xml") == 0 || first.find("xl/") == 0 || first.find("_rels/") == 0)
-    throw Error(path.string() + ": is an Excel file (xlsx); save the sheet as CSV");
-  if (first.starts_with("mimetype"))
-    throw Error(path.string() + ": is a spreadsheet (ods) or another document; save the sheet as CSV");
-  return openNpzTable(path);
+bool isZip(std::string_view begin) {
+  return begin.starts_with("PK\x03\x04");
+}
+
+bool isHdf5(std::string_view begin) {
+  return begin.starts_with("\x89HDF\r\n") || begin.starts_with("MATLAB ");
+}
+
+/// Empty for tables and arrays. A zip file may be NPZ, or the sheets of a spreadsheet.
+std::string adviceFor(std::string_view begin) {
+  const std::string_view first = begin.size() > 30 ? begin.substr(30, 60) : std::string_view{};
+  if (isZip(begin) &&
+      (first.starts_with("[Content_Types].xml") || first.starts_with("xl/") || first.starts_with("_rels/")))
+    return "is an Excel file (xlsx); save the sheet as CSV";
+  if (isZip(begin) && first.starts_with("mimetype"))
+    return "is a spreadsheet (ods) or another document; save the sheet as CSV";
+  for (const OtherKind& kind : kOtherKinds)
+    if (begin.starts_with(kind.begins)) return kind.advice;
+  return {};
 }
 
 } // namespace
@@ -65,11 +76,14 @@ std::unique_ptr<MeasuredTable> openTable(const fs::path& path, const TableForm& 
   if (fs::is_directory(path, ignored)) throw Error(path.string() + ": is a folder; a file is needed");
   if (!fs::is_regular_file(path, ignored)) return openTextTable(path, form); // a pipe is read only once
   const std::string begin = firstBytes(path);
-  if (begin.starts_with("PK\x03\x04")) return openZip(path, begin);
-  if (begin.starts_with("\x89HDF\r\n") || begin.starts_with("MATLAB ")) return openHdf5Table(path);
-  for (const OtherKind& kind : kOtherKinds)
-    if (begin.starts_with(kind.begins)) throw Error(path.string() + ": " + kind.advice);
-  return openTextTable(path, form);
+  if (const std::string advice = adviceFor(begin); !advice.empty()) throw Error(path.string() + ": " + advice);
+  if (isZip(begin)) return openNpzTable(path);
+  return isHdf5(begin) ? openHdf5Table(path) : openTextTable(path, form);
+}
+
+std::string whyNoTable(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? adviceFor(firstBytes(file)) : std::string();
 }
 
 } // namespace palp

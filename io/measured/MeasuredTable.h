@@ -34,6 +34,13 @@ struct ChosenColumn {
   As as = As::Number;
 };
 
+/// An array of numbers with its rows along the first dimension.
+struct TableArray {
+  std::string name;
+  std::uint64_t rows = 0;
+  std::size_t firstColumn = 0, columns = 0; ///< among those of the table
+};
+
 /// A table of numbers that another program wrote, read row by row.
 class MeasuredTable {
 public:
@@ -51,6 +58,13 @@ public:
   [[nodiscard]] virtual std::string form() const { return {}; }
   /// Whether a column contains dates or times of day in its first row.
   [[nodiscard]] virtual bool isDate(std::size_t /*column*/) const { return false; }
+
+  /// Lines before the table that are not read, up to 5; none of arrays.
+  [[nodiscard]] virtual std::vector<std::string> before() const { return {}; }
+  /// Arrays of which the columns are parts; none of text.
+  [[nodiscard]] virtual std::vector<TableArray> arrays() const { return {}; }
+  /// The first rows as they are written, a text for each column, before any other row is read. Throws Error.
+  [[nodiscard]] virtual std::vector<std::vector<std::string>> firstRows(std::size_t count) = 0;
 
   /// Begins to read these columns. Throws Error where arrays of different numbers of rows are chosen.
   virtual void choose(std::vector<ChosenColumn> chosen) = 0;

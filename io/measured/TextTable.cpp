@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLinesLookedAt = 300;
 constexpr std::size_t kBytesLookedAt = 1 << 20;
+constexpr std::size_t kLinesShown = 5; ///< of those before the table
 
 std::string shownField(std::string_view text) {
   return "\"" + std::string(text.substr(0, 40)) + (text.size() > 40 ? "..." : "") + "\"";
@@ -34,8 +35,13 @@ public:
     }
     if (first.empty()) throw Error(path.string() + ": the file is empty");
     layout_ = findLayout(first, form, path.string());
-    for (NumberedLine& line : first)
-      if (line.number >= layout_.firstLine) waiting_.push_back(std::move(line));
+    for (NumberedLine& line : first) {
+      if (line.number >= layout_.firstLine)
+        waiting_.push_back(std::move(line));
+      else if (before_.size() < kLinesShown && line.number != layout_.namesLine && line.number != layout_.unitsLine &&
+               !isEmptyLine(line.text, layout_.separator))
+        before_.push_back(std::move(line.text));
+    }
   }
 
   [[nodiscard]] const std::vector<std::string>& columns() const override { return layout_.names; }
@@ -54,6 +60,20 @@ public:
     words += layout_.namesLine > 0 ? ", names in line " + std::to_string(layout_.namesLine) : ", no names";
     if (layout_.unitsLine > 0) words += ", units in line " + std::to_string(layout_.unitsLine);
     return words + ", first row in line " + std::to_string(layout_.firstLine);
+  }
+
+  [[nodiscard]] std::vector<std::string> before() const override { return before_; }
+
+  [[nodiscard]] std::vector<std::vector<std::string>> firstRows(std::size_t count) override {
+    std::vector<std::vector<std::string>> rows;
+    std::vector<std::string_view> fields;
+    for (const NumberedLine& line : waiting_) {
+      if (rows.size() == count) break;
+      if (isEmptyLine(line.text, layout_.separator) || isComment(line.text)) continue;
+      splitFields(line.text, layout_.separator, fields);
+      rows.emplace_back(fields.begin(), fields.end()).resize(layout_.columns);
+    }
+    return rows;
   }
 
   void choose(std::vector<ChosenColumn> chosen) override {
@@ -139,6 +159,7 @@ private:
   TextLines lines_;
   TableLayout layout_;
   std::deque<NumberedLine> waiting_;
+  std::vector<std::string> before_;
   bool lastOfFirstIsCut_ = false, isCut_ = false;
   NumberedLine line_;
   std::vector<std::string_view> fields_;

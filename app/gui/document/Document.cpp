@@ -154,8 +154,9 @@ bool Document::mayReplace(const Project& next) {
 }
 
 void Document::open() {
-  const QStringList files =
-      askFilesToOpen(&window_, tr("Open"), tr("All Palp files (*.json *.csv *.h5 *.npz *.palprec);;All files (*)"));
+  const QStringList files = askFilesToOpen(
+      &window_, tr("Open"),
+      tr("Palp files and tables (*.json *.csv *.h5 *.hdf5 *.npz *.palprec *.tsv *.txt *.dat *.mat);;All files (*)"));
   if (!files.isEmpty()) open(files);
 }
 
@@ -165,11 +166,12 @@ void Document::open(const QStringList& files) {
     return;
   }
   try {
+    if (areTables(files)) return window_.importTables(files);
     std::vector<std::filesystem::path> samples;
     for (const QString& file : files) {
       if (fileKind(file) != FileKind::Samples)
-        throw Error(file.toStdString() +
-                    ": not a sample file; several files can be opened together only if all of them are sample files");
+        throw Error(file.toStdString() + ": not a sample file; several files can be opened together only if all of "
+                                         "them are sample files, or all of them measured tables");
       samples.emplace_back(file.toStdString());
     }
     window_.openSamples(samples);
@@ -181,7 +183,9 @@ void Document::open(const QStringList& files) {
 void Document::open(const QString& file) {
   try {
     const FileKind kind = fileKind(file);
-    if (kind == FileKind::Foreign) throw Error(foreignWords(file).toStdString());
+    if (areTables({file})) return window_.importTables({file});
+    if (kind == FileKind::ImportMap)
+      throw Error(file.toStdString() + ": is a map for importing a table; open it together with the table");
     if (kind == FileKind::Design || kind == FileKind::Project) {
       openProject(file);
     } else if (kind == FileKind::Samples) {

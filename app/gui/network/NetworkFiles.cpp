@@ -3,6 +3,7 @@
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/jobs/TimeLeft.h"
 #include "app/gui/jobs/samples/SampleFiles.h"
+#include "app/gui/project/FileKind.h"
 #include "app/gui/project/Workbench.h"
 #include "app/gui/widgets/FileDialogs.h"
 #include "model/base/Error.h"
@@ -22,7 +23,15 @@ NetworkFiles::NetworkFiles(Workbench& workbench, NetworkSession& session, QWidge
     : QObject(page), workbench_(workbench), session_(session), page_(page) {}
 
 void NetworkFiles::openSamples() {
-  const QStringList chosen = askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)"));
+  openChosen(askFilesToOpen(page_, tr("Open samples"), tr("Samples (*.csv *.h5 *.hdf5 *.npz)")));
+}
+
+void NetworkFiles::chooseTables() {
+  openChosen(askFilesToOpen(page_, tr("Import a table of measured data"),
+                            tr("Tables (*.csv *.tsv *.txt *.dat *.h5 *.hdf5 *.npz *.mat *.json);;All files (*)")));
+}
+
+void NetworkFiles::openChosen(const QStringList& chosen) {
   std::vector<std::filesystem::path> files;
   for (const QString& file : chosen) files.emplace_back(file.toStdString());
   if (!files.empty()) openSamples(files);
@@ -31,6 +40,12 @@ void NetworkFiles::openSamples() {
 /// Reports a file without samples before any question.
 void NetworkFiles::openSamples(const std::vector<std::filesystem::path>& files) {
   try {
+    QStringList names;
+    for (const std::filesystem::path& file : files) names << QString::fromStdString(file.string());
+    if (areTables(names)) {
+      emit importRequested(names);
+      return;
+    }
     for (const std::filesystem::path& file : files) requireSamples(file);
     if (mayReplaceSamples()) session_.openSamples(files);
   } catch (const Error& error) {

@@ -23,7 +23,9 @@ public:
   NetworkFiles(Workbench& workbench, NetworkSession& session, QWidget* page);
 
   void openSamples();
+  /// Tables that are not samples are imported.
   void openSamples(const std::vector<std::filesystem::path>& files);
+  void chooseTables();
   void saveSamples();
   void openNetwork();
   void saveNetwork();
@@ -33,10 +35,12 @@ public:
 signals:
   void problem(const QString& sentence);
   void sceneRequested(const QString& scene);
+  void importRequested(const QStringList& tables);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 
 private:
+  void openChosen(const QStringList& chosen);
   void takeIntoLive(const std::filesystem::path& network);
   [[nodiscard]] QString proposedName() const;
   /// Samples that took long and are in no file are not replaced silently.

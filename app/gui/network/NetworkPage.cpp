@@ -82,6 +82,8 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
     workbench_.edit(tr("Choose a test area"), [&](Project& next) { next.view.testArea = area; });
   });
   connect(panel_, &NetworkPanel::openSamplesRequested, files_, [this] { files_->openSamples(); });
+  connect(panel_, &NetworkPanel::importRequested, files_, &NetworkFiles::chooseTables);
+  connect(files_, &NetworkFiles::importRequested, this, &NetworkPage::importRequested);
   connect(panel_, &NetworkPanel::saveSamplesRequested, files_, &NetworkFiles::saveSamples);
   connect(save_, &QPushButton::clicked, files_, &NetworkFiles::saveNetwork);
   connect(open_, &QPushButton::clicked, files_, &NetworkFiles::openNetwork);
@@ -108,6 +110,10 @@ NetworkPage::NetworkPage(Workbench& workbench, NetworkSession& session, QWidget*
 
 void NetworkPage::openSamples(const std::vector<std::filesystem::path>& files) {
   files_->openSamples(files);
+}
+
+void NetworkPage::chooseTables() {
+  files_->chooseTables();
 }
 
 void NetworkPage::connectSession() {

@@ -37,6 +37,8 @@ public:
   [[nodiscard]] Stage stage() const override { return Stage::Design; }
   /// Asks where samples that took long would be replaced.
   void openSamples(const std::vector<std::filesystem::path>& files);
+  /// The user chooses tables of measured data, or samples.
+  void chooseTables();
   void setTheme(Theme theme) override;
   [[nodiscard]] bool complete() const override { return true; }
   [[nodiscard]] std::vector<JobRunner*> runners() override;
@@ -44,6 +46,7 @@ public:
 
 signals:
   void sceneRequested(const QString& scene);
+  void importRequested(const QStringList& tables);
   /// The file of the network that Live decodes with holds another one.
   void liveNetworkReplaced();
 

@@ -61,6 +61,7 @@ void NetworkPanel::buildSamples(QVBoxLayout& column) {
           [this](const QString& what) { emit edited(what, samplesBox_->settings(), fields_.settings()); });
   connect(samplesBox_, &SamplesBox::generateRequested, this, &NetworkPanel::generateRequested);
   connect(samplesBox_, &SamplesBox::openRequested, this, &NetworkPanel::openSamplesRequested);
+  connect(samplesBox_, &SamplesBox::importRequested, this, &NetworkPanel::importRequested);
   connect(samplesBox_, &SamplesBox::saveRequested, this, &NetworkPanel::saveSamplesRequested);
 }
 

@@ -45,6 +45,7 @@ signals:
   void edited(const QString& what, const palp::SampleSettings& samples, const palp::NetworkSettings& network);
   void generateRequested();
   void openSamplesRequested();
+  void importRequested();
   void saveSamplesRequested();
   void trainRequested();
   void sweepRequested();

@@ -140,10 +140,13 @@ void SamplesBox::buildFiles() {
   save_ = pushButton(tr("Save..."), "saveSamples",
                      tr("Saves NAME.csv for training and NAME-test.csv for testing next to it, as palp sample writes "
                         "them; .h5 and .npz are possible as well"));
-  files->addWidget(open);
-  files->addWidget(save_);
+  auto* import =
+      pushButton(tr("Import..."), "importTable",
+                 tr("Imports a table of readings and forces that another rig measured: text, .npz, .h5, .mat"));
+  addTo(*files, {open, import, save_});
   form_->addRow(files);
   connect(open, &QPushButton::clicked, this, &SamplesBox::openRequested);
+  connect(import, &QPushButton::clicked, this, &SamplesBox::importRequested);
   connect(save_, &QPushButton::clicked, this, &SamplesBox::saveRequested);
   words_ = textLabel("samplesWords");
   words_->setAlignment(Qt::AlignTop | Qt::AlignLeft);

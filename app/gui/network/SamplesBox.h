@@ -32,6 +32,7 @@ signals:
   void edited(const QString& what);
   void generateRequested();
   void openRequested();
+  void importRequested();
   void saveRequested();
 
 private:

@@ -2,6 +2,7 @@
 
 #include "app/gui/design/DesignPage.h"
 #include "app/gui/document/Document.h"
+#include "app/gui/import/ImportDialog.h"
 #include "app/gui/jobs/ExportJob.h"
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/live/LiveBoards.h"
@@ -105,6 +106,7 @@ MainWindow::MainWindow(Workbench& workbench, NetworkSession& network) : workbenc
   addScene("resistance", tr("Resistance"), tr("Row-column resistances under load"), new ResistancePage(workbench));
   networkPage_ = new NetworkPage(workbench, network);
   connect(networkPage_, &NetworkPage::sceneRequested, this, &MainWindow::showScene);
+  connect(networkPage_, &NetworkPage::importRequested, this, &MainWindow::importTables);
   addScene("network", tr("Network"), tr("Samples, training and the sweep of the spread"), networkPage_);
   live_ = new LiveBoards(workbench);
   connect(live_, &LiveBoards::message, this, &MainWindow::showMessage);
@@ -212,6 +214,22 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::openSamples(const std::vector<std::filesystem::path>& files) {
   showScene("network");
   networkPage_->openSamples(files);
+}
+
+void MainWindow::importTables(const QStringList& files) {
+  std::vector<std::filesystem::path> paths;
+  for (const QString& file : files) paths.emplace_back(file.toStdString());
+  auto* dialog = new ImportDialog(paths, workbench_.project().design, this);
+  connect(dialog, &ImportDialog::imported, this, [this](const std::filesystem::path& samples, std::size_t count) {
+    showMessage(tr("Imported %1 samples into %2.").arg(count).arg(QString::fromStdString(samples.string())));
+    openSamples({samples});
+  });
+  dialog->open();
+}
+
+void MainWindow::chooseTables() {
+  showScene("network");
+  networkPage_->chooseTables();
 }
 
 void MainWindow::showStudy(const QString& file) {

@@ -40,6 +40,10 @@ public:
   void showStudy(const QString& file);
   /// In the Network scene.
   void openSamples(const std::vector<std::filesystem::path>& files);
+  /// A dialog imports tables of measured data, one perhaps with its map, and opens the samples.
+  void importTables(const QStringList& files);
+  /// The same for tables that the user chooses.
+  void chooseTables();
   [[nodiscard]] QStringList sceneNames() const;
   [[nodiscard]] Scene& currentScene() const;
   /// As the rail names it.

@@ -116,6 +116,8 @@ void Menus::buildFile() {
       QKeySequence::New, [this] { document_.startAnew(); });
   add(menu, tr("&Open..."), tr("Opens a design, project, samples, network, study or recording"), QKeySequence::Open,
       [this] { document_.open(); });
+  add(menu, tr("&Import table..."), tr("Imports a table of measured data and opens its samples"), {},
+      [this] { window_.chooseTables(); });
   recent_ = menu.addMenu(tr("Open &recent"));
   recent_->setObjectName("recent");
   connect(recent_, &QMenu::aboutToShow, this, &Menus::listRecent);

@@ -99,8 +99,8 @@ void requireSamples(const fs::path& file) {
     throw Error(QObject::tr("%1: this is a project, not samples; use File > Open").arg(name).toStdString());
   }
   while (line.startsWith('#') && !source.atEnd()) line = source.readLine(); // the head of a table of Palp
-  throw Error(QObject::tr("%1: not a Palp sample file (it starts with \"%2\", expected \"# palp_samples\"). Use palp "
-                          "import to convert your own measurements.")
+  throw Error(QObject::tr("%1: not a Palp sample file (it starts with \"%2\", expected \"# palp_samples\"). Use File "
+                          "> Import table to convert your own measurements.")
                   .arg(name, QString::fromUtf8(line).trimmed().left(kShown))
                   .toStdString());
 }

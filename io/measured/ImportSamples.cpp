@@ -12,6 +12,7 @@
 #include "nn/ConstantReadings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -113,6 +114,45 @@ private:
   std::size_t count_ = 0;
 };
 
+/// Smallest and largest number of all rows.
+struct ValueRange {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] std::string text(const std::string& unit) const {
+    return shortText(low) + " to " + shortText(high) + (unit.empty() ? "" : " " + unit);
+  }
+};
+
+/// What the samples are like, by which a wrong unit or column shows.
+struct SampleRanges {
+  ValueRange readings;
+  std::array<ValueRange, 3> forces_N;
+  std::array<ValueRange, 2> places_mm;
+
+  void add(const ImportedRow& row) {
+    readings.add(row.readings.minCoeff());
+    readings.add(row.readings.maxCoeff());
+    for (int axis = 0; axis < 3; ++axis) forces_N[static_cast<std::size_t>(axis)].add(row.force_N(axis));
+    for (int axis = 0; axis < 2; ++axis) places_mm[static_cast<std::size_t>(axis)].add(row.place_mm(axis));
+  }
+  [[nodiscard]] std::string text(const ImportMap& map) const {
+    const bool signals = map.law.kind == ReadingLaw::Kind::Signal;
+    std::string all = "ranges: readings " + readings.text(signals ? map.signalUnit : "ohm");
+    constexpr std::array forces{"Fx", "Fy", "Fz"};
+    constexpr std::array places{"x", "y"};
+    for (std::size_t axis = 0; axis < map.forces_N.values.size(); ++axis)
+      if (!map.forces_N.values[axis].parts.empty())
+        all += ", " + std::string(forces.at(axis)) + " " + forces_N.at(axis).text("N");
+    for (std::size_t axis = 0; axis < map.places_mm.values.size(); ++axis)
+      all += ", " + std::string(places.at(axis)) + " " + places_mm.at(axis).text("mm");
+    return all;
+  }
+};
+
 /// What the forces look like over all rows.
 struct ForceRanges {
   std::size_t count = 0, pull = 0;
@@ -161,8 +201,9 @@ public:
     for (std::size_t run = 0; run < runs_; ++run) {
       const auto first = request_.tables.begin() + static_cast<std::ptrdiff_t>(run) * map_.tables;
       ImportedRows rows(map_, mapFile_, {first, first + map_.tables});
-      if (!writer) writer = std::make_unique<SampleWriter>(request_.output, block_, request_.force);
-      readRun(rows, run, *writer, progress, stop);
+      if (!writer && !request_.output.empty())
+        writer = std::make_unique<SampleWriter>(request_.output, block_, request_.force);
+      readRun(rows, run, writer.get(), progress, stop);
       result_.leftOut += rows.counts().outsideClock + rows.counts().inGaps;
       result_.unusedColumns = rows.unusedColumns();
       for (const std::string& note : rows.notes()) result_.notes.push_back(note);
@@ -173,12 +214,13 @@ public:
       throw Error(request_.tables.front().string() + ": has no rows " +
                   (result_.leftOut + bad_.count() > 0 ? "that can be used" : "below the names of its columns"));
     finish();
-    writer->finish(stop);
+    if (writer) writer->finish(stop);
     return std::move(result_);
   }
 
 private:
-  void readRun(ImportedRows& rows, std::size_t run, SampleWriter& writer, const std::function<void(double)>& progress,
+  /// Without a writer the rows are only checked.
+  void readRun(ImportedRows& rows, std::size_t run, SampleWriter* writer, const std::function<void(double)>& progress,
                const std::stop_token& stop) {
     const Eigen::Index atOnce = samplesAtOnce(block_);
     for (bool more = true; more;) {
@@ -189,7 +231,7 @@ private:
         if (take(rows, run, count)) ++count;
       }
       resizeSamples(block_, count);
-      if (map_.leaveOutBadRows || bad_.count() == 0) writer.append(block_);
+      if (writer != nullptr && (map_.leaveOutBadRows || bad_.count() == 0)) writer->append(block_);
       readings_.add(block_.resistances_ohm);
       result_.samples += static_cast<std::size_t>(count);
       if (progress) progress((static_cast<double>(run) + rows.share()) / static_cast<double>(runs_));
@@ -220,6 +262,7 @@ private:
       block_.times_s(0, column) = row_.time_s;
     }
     if (!map_.forces_N.values.empty()) forces_.add(row_.force_N);
+    ranges_.add(row_);
     return true;
   }
 
@@ -248,6 +291,7 @@ private:
   }
 
   void finish() {
+    result_.notes.push_back(ranges_.text(map_));
     result_.leftOut += bad_.count();
     if (bad_.count() > 0)
       result_.notes.push_back(std::to_string(bad_.count()) + " bad rows left out, the first: " + bad_.first());
@@ -274,24 +318,40 @@ private:
   std::vector<std::string> problems_;
   BadRows bad_;
   ForceRanges forces_;
+  SampleRanges ranges_;
   ConstantReadings readings_;
   std::map<std::pair<std::size_t, double>, double> numbers_; ///< of the runs
   std::map<double, double> lastTimes_s_;                     ///< by run
   Imported result_;
 };
 
-} // namespace
-
-Imported importSamples(const ImportRequest& request, const std::function<void(double)>& progress,
-                       const std::stop_token& stop) {
-  requireFree(request.output, request.force);
+Imported imported(const ImportRequest& request, const std::function<void(double)>& progress,
+                  const std::stop_token& stop) {
   if (!request.map.empty())
     return Import(request, readImportMap(request.map), request.map.string()).run(progress, stop);
+  if (!request.mapText.empty())
+    return Import(request, importMapFrom(parseJson(request.mapText, "the map"), "the map"), "the map")
+        .run(progress, stop);
   const GuessedMap guessed = guessImportMap(request.tables);
   const std::string name = "the map that the names of the columns state";
   Imported result = Import(request, importMapFrom(parseJson(guessed.json, name), name), name).run(progress, stop);
   result.notes.insert(result.notes.begin(), guessed.assumed.begin(), guessed.assumed.end());
   return result;
+}
+
+} // namespace
+
+Imported importSamples(const ImportRequest& request, const std::function<void(double)>& progress,
+                       const std::stop_token& stop) {
+  requireFree(request.output, request.force);
+  return imported(request, progress, stop);
+}
+
+Imported checkImport(const ImportRequest& request, const std::function<void(double)>& progress,
+                     const std::stop_token& stop) {
+  ImportRequest check = request;
+  check.output.clear();
+  return imported(check, progress, stop);
 }
 
 } // namespace palp
