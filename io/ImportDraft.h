@@ -95,6 +95,7 @@ struct ImportDraft {
   TextForm form;
   int tables = 1;                                   ///< of one recording, as the map states it
   std::vector<std::vector<ColumnMeaning>> meanings; ///< of each table's columns
+  std::vector<ColumnPlace> readingOrder;            ///< of the map; further readings follow as they are in the tables
   ReadingKind kind = ReadingKind::Signal;
   std::string readingUnit;                ///< of resistances: as maps name them; of signals: any text
   double ohmPerCode = 1, zero_ohm = 0;    ///< of codes

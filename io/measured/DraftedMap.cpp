@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 namespace palp {
@@ -111,9 +112,19 @@ private:
     line("first_line", draft_.form.firstLine, draft_.form.firstLine > 0);
   }
 
-  /// In the order of the map, new ones where they are in the table.
+  /// In the order of the map; those that it does not have follow as they are in the tables.
+  [[nodiscard]] PlacesOf orderedReadings() const {
+    PlacesOf all;
+    for (const ColumnPlace place : draft_.readingOrder)
+      if (draft_.meaning(place) == ColumnMeaning::Reading) all.push_back(place);
+    const std::set<ColumnPlace> ofMap(all.begin(), all.end());
+    for (const ColumnPlace place : placesOf(ColumnMeaning::Reading))
+      if (!ofMap.contains(place)) all.push_back(place);
+    return all;
+  }
+
   void readings() {
-    const PlacesOf places = placesOf(ColumnMeaning::Reading);
+    const PlacesOf places = orderedReadings();
     DraftJson group = map_.value(key(before_.kind), DraftJson::object());
     map_.erase("signals");
     map_.erase("resistances");

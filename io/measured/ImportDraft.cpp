@@ -36,7 +36,10 @@ public:
   void add(int table, const ColumnName& column, ColumnMeaning meaning) {
     const auto t = static_cast<std::size_t>(table);
     if (t >= names_.size()) return;
-    if (const auto index = columnOf(column, t)) draft_.meanings[t][*index] = meaning;
+    const auto index = columnOf(column, t);
+    if (!index) return;
+    draft_.meanings[t][*index] = meaning;
+    if (meaning == ColumnMeaning::Reading) draft_.readingOrder.push_back({t, *index});
   }
   void add(int table, const ImportedValue& value, ColumnMeaning meaning) {
     for (const ImportedValue::Part& part : value.parts) add(table, part.column, meaning);

@@ -120,7 +120,19 @@ TEST_F(ImportDraftTest, WhatADraftCannotExpressStaysAsLongAsItsColumnsDo) {
   expected.erase("signals");
   expected["forces"]["columns"][1] = "Fz [mN]";
   expected["forces"]["columns"][2] = nullptr;
+  expected["forces"]["unit"] = "mN"; // as the table states
   EXPECT_EQ(map(), expected);
+}
+
+TEST_F(ImportDraftTest, ReadingsStayInTheOrderOfTheMap) {
+  table("table.csv", "extra,R1_0,R1_1,R0_0,R0_1,Fz_N\n1,2,3,4,5,-1\n2,3,4,5,6,-2\n");
+  guess();
+  EXPECT_EQ(map()["resistances"]["columns"], (Json{"R0_0", "R0_1", "R1_0", "R1_1"}));
+  EXPECT_EQ(draft_.rowWires, 2);
+  set({{0, 2}, {0, 4}}, Meaning::LeftOut);
+  set({{0, 0}}, Meaning::Reading);
+  draft_.rowWires = 1;
+  EXPECT_EQ(map()["resistances"]["columns"], (Json{"R0_0", "R1_0", "extra"}));
 }
 
 TEST_F(ImportDraftTest, ValuesOfAnotherTableHaveTheirOwnClock) {

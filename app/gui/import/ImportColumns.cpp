@@ -162,7 +162,10 @@ ImportColumns::ImportColumns(QWidget* parent) : QTableView(parent), model_(new M
   setItemDelegate(new MeaningDelegate(this));
   setSelectionBehavior(QAbstractItemView::SelectColumns);
   setSelectionMode(QAbstractItemView::ExtendedSelection);
-  setEditTriggers(QAbstractItemView::AllEditTriggers);
+  setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::AnyKeyPressed);
+  connect(this, &QAbstractItemView::clicked, this, [this](const QModelIndex& index) {
+    if (index.row() == 0) edit(index);
+  });
   setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   setWordWrap(false);
   horizontalHeader()->setDefaultSectionSize(kColumnWidth_px);

@@ -20,7 +20,9 @@ constexpr qint64 kLooked_bytes = 65536;
 void requireTable(const QString& file) {
   const std::filesystem::path path = file.toStdString();
   if (const std::string why = whyNoTable(path); !why.empty()) throw Error(path.string() + ": " + why);
-  if (QMimeDatabase().mimeTypeForFile(file).inherits("text/plain") && QFileInfo(file).size() > 0) return;
+  if (QFileInfo(file).size() > 0 &&
+      QMimeDatabase().mimeTypeForFile(file, QMimeDatabase::MatchContent).inherits("text/plain"))
+    return;
   try {
     previewTable(path, {}, 0); // arrays, or text that the system does not take for it
   } catch (const Error&) {

@@ -1,10 +1,12 @@
 #include "app/gui/import/ImportDialog.h"
 
+#include "app/gui/document/Document.h"
 #include "app/gui/import/ImportColumns.h"
 #include "io/AtomicFile.h"
 #include "io/SampleFile.h"
 #include "tests/app/gui/WindowFixture.h"
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QHeaderView>
 #include <QLabel>
@@ -61,8 +63,8 @@ protected:
     ASSERT_NE(box, nullptr);
     ASSERT_TRUE(QTest::qWaitFor([&] { return box->view()->isVisible(); }, kPatience_ms)) << "the list opens";
     const int row = box->findData(static_cast<int>(meaning));
-    QTest::mouseClick(box->view()->viewport(), Qt::LeftButton, {},
-                      box->view()->visualRect(box->model()->index(row, 0)).center());
+    box->view()->setCurrentIndex(box->model()->index(row, 0));
+    QTest::keyClick(box->view(), Qt::Key_Return);
     ASSERT_TRUE(QTest::qWaitFor([&] { return columns.viewport()->findChild<QComboBox*>("columnMeaning") == nullptr; },
                                 kPatience_ms));
     EXPECT_EQ(cell.data(Qt::EditRole).toInt(), static_cast<int>(meaning));
