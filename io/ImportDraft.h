@@ -40,7 +40,7 @@ struct TablePreview {
 };
 
 /// Reads the names of the columns and the first rows. Throws Error if the file is not a table.
-TablePreview previewTable(const std::filesystem::path& file, const TextForm& form, std::size_t rows = 12);
+TablePreview previewTable(const std::filesystem::path& file, const TextForm& form, std::size_t rows = 25);
 
 /// Why a file is not a table, by its first bytes: "is an Excel file (xlsx); save the sheet as CSV". Empty if it may be
 /// one.

@@ -36,7 +36,7 @@ QString tableWords(const TablePreview& table) {
   QString line =
       QString("%1: %2; ")
           .arg(words(table.file.filename().string()), table.arrays.empty() ? words(table.form) : arraysWords(table)) +
-      QObject::tr("%n column(s)", nullptr, static_cast<int>(table.columns.size()));
+      QObject::tr("%1 columns").arg(table.columns.size());
   if (table.before.empty()) return line;
   return line + QObject::tr("; above the table: \"%1\"").arg(words(table.before.front()).trimmed().left(kLineShown));
 }

@@ -11,6 +11,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMessageBox>
+#include <QPointer>
 #include <QPushButton>
 #include <QTemporaryDir>
 
@@ -59,9 +60,8 @@ protected:
     const QModelIndex cell = columns.model()->index(0, column);
     columns.scrollTo(cell);
     QTest::mouseClick(columns.viewport(), Qt::LeftButton, {}, columns.visualRect(cell).center());
-    auto* box = columns.viewport()->findChild<QComboBox*>("columnMeaning");
-    ASSERT_NE(box, nullptr);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return box->view()->isVisible(); }, kPatience_ms)) << "the list opens";
+    const QPointer<QComboBox> box = columns.viewport()->findChild<QComboBox*>("columnMeaning");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return box && box->view()->isVisible(); }, kPatience_ms)) << "the list opens";
     const int row = box->findData(static_cast<int>(meaning));
     box->view()->setCurrentIndex(box->model()->index(row, 0));
     QTest::keyClick(box->view(), Qt::Key_Return);
