@@ -11,7 +11,7 @@
 
 namespace palp {
 
-/// Factor of the features of a line that stands with Gaussians: it is penalised 100 times less.
+/// Factor of the features of a line together with Gaussians: it is penalised 100 times less.
 inline constexpr double kTail = 10;
 
 /// Offset and factor of each input (inputs x rows): deviation 1, but an input that hardly varies is not raised by more

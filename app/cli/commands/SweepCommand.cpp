@@ -83,11 +83,12 @@ SplitSamples samplesOf(const SweepArguments& arguments, const std::stop_token& s
 }
 
 /// Measured rows: transform and memory are chosen once, then each spread is trained and tested with them.
-std::vector<SweepRow> sweepMeasured(const SplitSamples& samples, TrainOptions options,
+std::vector<SweepRow> sweepMeasured(const SplitSamples& samples, const TrainOptions& given,
                                     const std::vector<double>& spreads, double testNoise,
                                     const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
-  const Decoder chosen = trainDecoder(samples.training, nullptr, options, stop);
+  const Decoder chosen = trainDecoder(samples.training, nullptr, given, stop);
   const InputStage& stage = chosen.measured->stage;
+  TrainOptions options = given;
   options.order = chosen.measured->dependence.order;
   options.transform = stage.transform;
   if (!stage.hasMemory()) options.memory = "none";
@@ -139,7 +140,7 @@ Exit run(const SweepArguments& arguments, Session& session) {
                 gotExpected(std::to_string(samples.test.forces_N.rows()),
                             std::to_string(samples.training.forces_N.rows()) + ", as in the training samples"));
   takeDefaultsOf(samples.training, arguments.train.isGiven("input"), arguments.train.isGiven("rows"), options);
-  const auto sweep = trainsAsMeasured(samples.training, options) ? &sweepMeasured : &sweepComputed;
+  auto* const sweep = trainsAsMeasured(samples.training, options) ? &sweepMeasured : &sweepComputed;
   ProgressBar bar("spreads", spreads.size());
   const std::vector<SweepRow> rows = session.stages.measure("train", [&] {
     return sweep(

@@ -12,7 +12,7 @@ namespace palp {
 /// each other, what was left out together, the errors, what was taken. None for a decoder that was trained otherwise.
 std::vector<std::string> measuredSentences(const Decoder& decoder, std::size_t samples, bool hasClock);
 
-/// How the rows of a measured table depend on each other, and what is left out together.
+/// How the rows of a measured table depend on each other, and which rows are left out together.
 std::string leftOutInWords(const RowDependence& found, std::size_t samples);
 
 /// The error on samples that were kept back from training, and the share of it within the stated deviations; the
