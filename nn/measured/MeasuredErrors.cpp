@@ -146,7 +146,7 @@ double Judge::score(const Eigen::MatrixXd& limitedErrors) const {
   return std::isfinite(sum) ? std::sqrt(sum / varying) : std::numeric_limits<double>::infinity();
 }
 
-Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& errors) {
+Eigen::VectorXd rootMeanSquareOfColumns(const Eigen::MatrixXd& errors) {
   return errors.array().square().colwise().mean().sqrt().transpose();
 }
 

@@ -53,7 +53,7 @@ private:
   Eigen::RowVectorXd variance_;
 };
 
-/// Root mean square of each column.
-Eigen::VectorXd rootMeanSquare(const Eigen::MatrixXd& errors);
+/// Root mean square of each column of errors.
+Eigen::VectorXd rootMeanSquareOfColumns(const Eigen::MatrixXd& errors);
 
 } // namespace palp

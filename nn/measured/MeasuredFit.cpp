@@ -211,17 +211,17 @@ private:
   void state(const MeasuredRows& many, const std::vector<Eigen::Index>& thin, const Judge& judge,
              const GroupRidge& system, const Eigen::MatrixXd& errors, double score) {
     MeasuredValidation& validation = fit_.validation;
-    validation.stated = rootMeanSquare(errors);
+    validation.stated = rootMeanSquareOfColumns(errors);
     validation.score = score;
     validation.errors = errors.transpose();
     validation.fittedRows = thin;
     const Eigen::MatrixXd single = judge.limited(system.singleRowErrors(validation.lambda));
-    validation.singleRow = rootMeanSquare(single);
+    validation.singleRow = rootMeanSquareOfColumns(single);
     validation.singleRowScore = judge.score(single);
     if (const int runs = many.runCount(); runs < 2 || order() == RowOrder::Runs) return;
     const Eigen::MatrixXd recording =
         judge.limited(system.errors(foldsOfRuns(many), {validation.lambda}, stop_).front());
-    validation.recording = rootMeanSquare(recording);
+    validation.recording = rootMeanSquareOfColumns(recording);
     validation.recordingScore = judge.score(recording);
   }
 
