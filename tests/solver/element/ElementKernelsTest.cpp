@@ -1,6 +1,6 @@
 #include "tests/solver/TestBlocks.h"
 
-#include "solver/element/MooneyRivlin.h"
+#include "solver/element/RubberStress.h"
 #include "solver/linear/NestedDissection.h"
 
 #include <gtest/gtest.h>
