@@ -94,7 +94,7 @@ TEST_P(SolvedLaw, OfABatchAgreesWithSingleSolves) {
 }
 
 TEST(GentsLaw, EndsASolveWithAClearSentenceWhereItLocks) {
-  const BoundaryValueProblem p(cubeTets(2, 0), Material{Gent{0.4, 0.3}}, [](const Eigen::Vector3d& x, int d) {
+  const BoundaryValueProblem p(cubeTets(2, 0), Material{Gent{0.4, 0.3}, 0.5}, [](const Eigen::Vector3d& x, int d) {
     if (x(d) < 1e-9) return std::optional(0.);
     return d == 2 && x.z() > 1 - 1e-9 ? std::optional(0.5) : std::nullopt;
   });

@@ -36,7 +36,7 @@ std::vector<TestRow> rowsOf(const MaterialArguments& arguments) {
   add(arguments.tests, TestMode::Uniaxial);
   add(arguments.equibiaxial, TestMode::Equibiaxial);
   add(arguments.planar, TestMode::Planar);
-  if (rows.empty()) throw UsageError("palp material fit: got no file, expected a CSV file of a test");
+  if (rows.empty()) throw UsageError("test: got no file, expected a CSV file of a test");
   if (arguments.stretches.empty()) return rows;
   const std::vector<double> range = numbers("--stretches", arguments.stretches, 2);
   if (!(range[0] > 0 && range[0] < range[1]))

@@ -1,107 +1,17 @@
 #include "app/gui/design/DesignFields.h"
 
-#include "app/gui/widgets/SpinBoxes.h"
-#include "app/gui/widgets/UnclearComma.h"
-#include "model/base/Text.h"
+#include "app/gui/design/fields/FieldText.h"
+#include "app/gui/design/fields/RubberFields.h"
 
 #include <QObject>
-#include <QStringList>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 
 namespace palp {
 
 namespace {
-
-QString shortText(double value) {
-  return QString::fromStdString(text(value));
-}
-
-QString setNumber(double& target, const QString& words) {
-  const auto value = typedNumber(words);
-  if (!value) return QObject::tr("\"%1\" is not a number; use a decimal point, for example 0.5").arg(words);
-  target = *value;
-  return {};
-}
-
-QString setCount(int& target, const QString& words) {
-  bool good = false;
-  const int value = words.trimmed().toInt(&good);
-  if (!good) return QObject::tr("\"%1\" is not a whole number").arg(words);
-  target = value;
-  return {};
-}
-
-/// Continues from the last two values in equal steps until `last`, or returns what is wrong.
-QString goOn(std::vector<double>& values, double last) {
-  constexpr double kMost = 1000;
-  if (values.size() < 2)
-    return QObject::tr("\"...\" must follow at least two numbers, for example 0.5, 1.5, ..., 29.5");
-  const double start = values.back(), step = start - values[values.size() - 2];
-  const double steps = (last - start) / step;
-  if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
-    return QObject::tr("%1 cannot be reached from %2 in 1 to 1000 equal steps of %3")
-        .arg(shortText(last), shortText(start), shortText(step));
-  for (int k = 1; k < std::lround(steps); ++k) // 1e-9 mm: 7.333333332 and not ...20000005
-    values.push_back(std::round((start + k * step) * 1e9) / 1e9);
-  values.push_back(last);
-  return {};
-}
-
-QString setList(std::vector<double>& target, const QString& words) {
-  if (const QString unclear = unclearComma(words); !unclear.isEmpty()) return unclear;
-  std::vector<double> values;
-  bool evenly = false; // after "..."
-  for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {
-    if (word.trimmed() == "..." && !evenly) {
-      evenly = true;
-      continue;
-    }
-    double value = 0;
-    if (const QString wrong = setNumber(value, word); !wrong.isEmpty()) return wrong;
-    if (!evenly)
-      values.push_back(value);
-    else if (const QString wrong = goOn(values, value); !wrong.isEmpty())
-      return wrong;
-    evenly = false;
-  }
-  if (evenly) return QObject::tr("\"...\" must be followed by the last number, for example 0.5, 1.5, ..., 29.5");
-  if (values.empty()) return QObject::tr("the list is empty; enter numbers separated by commas");
-  target = values;
-  return {};
-}
-
-/// Evenly spaced numbers in short, where that gives the very same numbers back.
-QString listText(const std::vector<double>& values) {
-  QStringList texts;
-  for (const double value : values) texts << shortText(value);
-  if (values.size() > 4) {
-    const QString evenly = texts[0] + ", " + texts[1] + ", ..., " + texts.back();
-    std::vector<double> again;
-    if (setList(again, evenly).isEmpty() && again == values) return evenly;
-  }
-  return texts.join(", ");
-}
-
-/// Lists wire by wire are separated by semicolons.
-QString listsText(const std::vector<std::vector<double>>& lists) {
-  QStringList texts;
-  for (const std::vector<double>& list : lists) texts << listText(list);
-  return texts.join("; ");
-}
-
-QString setLists(std::vector<std::vector<double>>& target, const QString& words) {
-  std::vector<std::vector<double>> lists;
-  for (const QString& word : words.split(';')) {
-    lists.emplace_back();
-    if (const QString wrong = setList(lists.back(), word); !wrong.isEmpty()) return wrong;
-  }
-  target = lists;
-  return {};
-}
 
 template <class Part>
 DesignField number(const QString& key, const QString& group, const QString& label, const QString& unit,
@@ -111,7 +21,7 @@ DesignField number(const QString& key, const QString& group, const QString& labe
           label,
           unit,
           tip,
-          [part](SensorDesign design) { return shortText(part(design)); },
+          [part](SensorDesign design) { return fieldText(part(design)); },
           [part](SensorDesign& design, const QString& words) { return setNumber(part(design), words); }};
 }
 
@@ -160,155 +70,6 @@ const std::array<QString, 3>& axes() {
   return names;
 }
 
-/// Which of the choices the words name, or what is wrong.
-QString setChoice(std::size_t& target, const std::vector<DesignChoice>& choices, const QString& words) {
-  for (std::size_t k = 0; k < choices.size(); ++k)
-    if (choices[k].words == words) {
-      target = k;
-      return {};
-    }
-  return QObject::tr("\"%1\" is not one of the choices").arg(words);
-}
-
-/// The law of another kind that is as stiff at rest.
-RubberLaw lawAsStiff(std::size_t kind, double mu) {
-  switch (static_cast<RubberLawKind>(kind)) {
-  case RubberLawKind::MooneyRivlin:
-    return MooneyRivlin{0.4 * mu, 0.1 * mu}; // the paper's ratio
-  case RubberLawKind::NeoHooke:
-    return NeoHooke{mu / 2};
-  case RubberLawKind::Yeoh:
-    return Yeoh{mu / 2, 0, 0};
-  case RubberLawKind::Gent:
-    return Gent{.mu_MPa = mu};
-  case RubberLawKind::Ogden:
-    return Ogden{{mu}, {2}};
-  }
-  return {};
-}
-
-DesignField rubberLaw() {
-  // In the order of RubberLaw's alternatives.
-  const std::vector<DesignChoice> choices{
-      {tr("Mooney-Rivlin"), tr("W = C10 (I1 - 3) + C01 (I2 - 3), the paper's law")},
-      {tr("neo-Hooke"), tr("W = C10 (I1 - 3)")},
-      {tr("Yeoh"), tr("W = C10 (I1 - 3) + C20 (I1 - 3)^2 + C30 (I1 - 3)^3")},
-      {tr("Gent"), tr("W = -(mu Jm / 2) ln(1 - (I1 - 3) / Jm): the rubber locks where I1 - 3 comes to Jm")},
-      {tr("Ogden"), tr("W = sum of 2 mu / alpha^2 (l1^alpha + l2^alpha + l3^alpha - 3) over 1 to 3 terms")}};
-  return {"material.law",
-          tr("Rubber"),
-          tr("law"),
-          "",
-          tr("Law of the rubber; another law begins with the same shear modulus. palp material fit finds the constants "
-             "from a test."),
-          [choices](const SensorDesign& design) { return choices[design.material.law.index()].words; },
-          [choices](SensorDesign& design, const QString& words) {
-            std::size_t index = 0;
-            const QString wrong = setChoice(index, choices, words);
-            if (!wrong.isEmpty() || index == design.material.law.index()) return wrong;
-            design.material.law = lawAsStiff(index, design.material.shearModulus_MPa());
-            return wrong;
-          },
-          choices};
-}
-
-double* c10Of(RubberLaw& law) {
-  if (auto* of = std::get_if<MooneyRivlin>(&law)) return &of->c10_MPa;
-  if (auto* of = std::get_if<NeoHooke>(&law)) return &of->c10_MPa;
-  if (auto* of = std::get_if<Yeoh>(&law)) return &of->c10_MPa;
-  return nullptr;
-}
-
-/// A constant that its laws have as one number; null: the design's law has none.
-DesignField rubberConstant(const QString& key, const QString& label, const QString& unit, const QString& tip,
-                           double* (*constant)(RubberLaw&)) {
-  return {"material." + key,
-          tr("Rubber"),
-          label,
-          unit,
-          tip,
-          [constant](SensorDesign design) {
-            const double* value = constant(design.material.law);
-            return value != nullptr ? shortText(*value) : QString();
-          },
-          [constant](SensorDesign& design, const QString& words) {
-            double* value = constant(design.material.law);
-            return value != nullptr ? setNumber(*value, words) : QString();
-          },
-          {},
-          [constant](const SensorDesign& design) {
-            RubberLaw law = design.material.law;
-            return constant(law) != nullptr;
-          }};
-}
-
-/// Numbers of Ogden's terms.
-DesignField ogdenList(const QString& key, const QString& label, const QString& unit, const QString& tip,
-                      std::vector<double> Ogden::*part) {
-  return {"material." + key,
-          tr("Rubber"),
-          label,
-          unit,
-          tip,
-          [part](const SensorDesign& design) {
-            const auto* law = std::get_if<Ogden>(&design.material.law);
-            return law != nullptr ? listText(law->*part) : QString();
-          },
-          [part](SensorDesign& design, const QString& words) {
-            auto* law = std::get_if<Ogden>(&design.material.law);
-            return law != nullptr ? setList(law->*part, words) : QString();
-          },
-          {},
-          [](const SensorDesign& design) { return std::holds_alternative<Ogden>(design.material.law); }};
-}
-
-/// mu is one number of Gent's law and a list of Ogden's.
-DesignField rubberModulus() {
-  DesignField field = ogdenList("mu_MPa", "mu", "MPa",
-                                tr("Gent: shear modulus, above 0. Ogden: 1 to 3 numbers separated by commas, their sum "
-                                   "is the shear modulus."),
-                                &Ogden::mu_MPa);
-  const DesignField ofOgden = field;
-  field.text = [ofOgden](const SensorDesign& design) {
-    const auto* law = std::get_if<Gent>(&design.material.law);
-    return law != nullptr ? shortText(law->mu_MPa) : ofOgden.text(design);
-  };
-  field.set = [ofOgden](SensorDesign& design, const QString& words) {
-    auto* law = std::get_if<Gent>(&design.material.law);
-    return law != nullptr ? setNumber(law->mu_MPa, words) : ofOgden.set(design, words);
-  };
-  field.onlyOf = [ofOgden](const SensorDesign& design) {
-    return std::holds_alternative<Gent>(design.material.law) || ofOgden.has(design);
-  };
-  return field;
-}
-
-/// The law first: the others are its constants.
-void addRubberLaw(Fields& fields) {
-  fields.push_back(rubberLaw());
-  fields.push_back(rubberConstant("c10_MPa", "c10", "MPa", tr("Constant C10, above 0"), c10Of));
-  fields.push_back(rubberConstant("c01_MPa", "c01", "MPa", tr("Mooney-Rivlin constant C01; C10 + C01 must be above 0"),
-                                  [](RubberLaw& law) {
-                                    auto* of = std::get_if<MooneyRivlin>(&law);
-                                    return of != nullptr ? &of->c01_MPa : nullptr;
-                                  }));
-  fields.push_back(rubberConstant("c20_MPa", "c20", "MPa", tr("Yeoh's constant C20"), [](RubberLaw& law) {
-    auto* of = std::get_if<Yeoh>(&law);
-    return of != nullptr ? &of->c20_MPa : nullptr;
-  }));
-  fields.push_back(rubberConstant("c30_MPa", "c30", "MPa", tr("Yeoh's constant C30"), [](RubberLaw& law) {
-    auto* of = std::get_if<Yeoh>(&law);
-    return of != nullptr ? &of->c30_MPa : nullptr;
-  }));
-  fields.push_back(rubberModulus());
-  fields.push_back(rubberConstant("jm", "Jm", "", tr("Gent's limit of I1 - 3, above 0"), [](RubberLaw& law) {
-    auto* of = std::get_if<Gent>(&law);
-    return of != nullptr ? &of->jm : nullptr;
-  }));
-  fields.push_back(
-      ogdenList("alpha", "alpha", "", tr("Ogden's exponents, as many as mu has numbers; not 0"), &Ogden::alpha));
-}
-
 /// Block, rubber and load areas.
 void addBody(Fields& fields) {
   for (int d = 0; d < 3; ++d)
@@ -316,7 +77,7 @@ void addBody(Fields& fields) {
                             tr("size along %1").arg(axes()[static_cast<std::size_t>(d)]), "mm",
                             tr("Length of the block's side, above 0; the bottom face is fixed"),
                             [d](D& s) -> double& { return s.block_mm[d]; }));
-  addRubberLaw(fields);
+  for (const DesignField& field : rubberLawFields()) fields.push_back(field);
   fields.push_back(
       number("material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
              tr("0 to 0.5, which is incompressible; it sets the bulk modulus kappa = mu / (1 - 2 nu) with "
@@ -364,7 +125,7 @@ DesignField ofLaw(const QString& key, const QString& label, const QString& unit,
           tip,
           [part](const SensorDesign& design) {
             const Law* law = std::get_if<Law>(&design.resistance);
-            return law != nullptr ? shortText(law->*part) : QString();
+            return law != nullptr ? fieldText(law->*part) : QString();
           },
           [part](SensorDesign& design, const QString& words) {
             Law* law = std::get_if<Law>(&design.resistance);
