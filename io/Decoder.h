@@ -94,7 +94,7 @@ struct Decoder {
   bool together = false;             ///< gives one force for each area at the same time: 3 x areas outputs
   std::string touches;               ///< the indenters it was trained on, as text; empty: forces on complete areas
   std::optional<DecoderPlace> place; ///< for force and position: the model outputs x and y after the force
-  /// Calibration of a decoder by inversion, whose forward model is left unchanged; nullopt: not calibrated.
+  /// Calibration of a decoder by inversion or of measured rows, whose model is left unchanged; nullopt: not calibrated.
   std::optional<OutputCorrection> correction;
   Eigen::VectorXd low_N, high_N;            ///< training range of each force
   Eigen::MatrixXd residual_N;               ///< forces x areas (1 where unknown): rms error found in training, per area
@@ -106,6 +106,13 @@ struct Decoder {
   /// Number of force components.
   [[nodiscard]] Eigen::Index outputs() const { return low_N.size(); }
   [[nodiscard]] Eigen::Index inputs() const { return input.low.size(); }
+  /// Number of a model's answers: the forces, and below them x and y of a place.
+  [[nodiscard]] Eigen::Index answers() const { return outputs() + (place ? 2 : 0); }
 };
+
+/// Whether a calibration is kept in `correction`; that of other decoders changes their model.
+inline bool keepsCorrection(const Decoder& decoder) {
+  return decoder.measured.has_value() || std::holds_alternative<KernelForwardModel>(decoder.model);
+}
 
 } // namespace palp

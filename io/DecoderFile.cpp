@@ -245,9 +245,9 @@ Decoder parseNetwork(const std::string& text, const std::string& file) {
   if (!root.at("areas").isNull()) decoder.areas = readForwardModel(root.at("areas"));
   requireFitting(root, decoder);
   if (root.has("correction")) {
-    if (!std::holds_alternative<KernelForwardModel>(decoder.model))
+    if (!keepsCorrection(decoder))
       root.at("correction").refuse("no such key, because this decoder is refined in its model");
-    decoder.correction = readCorrection(root.at("correction"), decoder.outputs() + 2);
+    decoder.correction = readCorrection(root.at("correction"), decoder.answers());
   }
   return decoder;
 }

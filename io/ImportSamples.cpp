@@ -160,12 +160,12 @@ public:
     std::unique_ptr<SampleWriter> writer;
     for (std::size_t run = 0; run < runs_; ++run) {
       const auto first = request_.tables.begin() + static_cast<std::ptrdiff_t>(run) * map_.tables;
-      ImportedRows rows(map_, mapFile_, {first, first + map_.tables});
+      ImportedRows rows(map_, mapFile_, {first, first + map_.tables}, stop);
       if (!writer) writer = std::make_unique<SampleWriter>(request_.output, block_, request_.force);
       readRun(rows, run, *writer, progress, stop);
       result_.leftOut += rows.counts().outsideClock + rows.counts().inGaps;
       result_.unusedColumns = rows.unusedColumns();
-      for (const std::string& note : rows.notes()) result_.notes.push_back(note);
+      if (run == 0) result_.notes = rows.notes(); // the others are read alike
       noteLeftOut(rows.counts());
     }
     if (!map_.leaveOutBadRows) bad_.refuse();
@@ -213,30 +213,37 @@ private:
     block_.resistances_ohm.col(column) = row_.readings;
     block_.forces_N.col(column) = row_.force_N;
     if (block_.places_mm.rows() > 0) block_.places_mm.col(column) = row_.place_mm;
-    const double number = runNumber(run);
+    bool begins = false;
+    const double number = runNumber(rows, run, begins);
     if (block_.runs.rows() > 0) block_.runs(0, column) = number;
     if (map_.time) {
-      requireLater(rows, number);
+      requireLater(rows, begins);
       block_.times_s(0, column) = row_.time_s;
     }
     if (!map_.forces_N.values.empty()) forces_.add(row_.force_N);
     return true;
   }
 
-  /// Runs of the map's column and of the files, numbered in the order of their first rows.
-  double runNumber(std::size_t run) {
-    const auto number = static_cast<double>(numbers_.size());
-    return numbers_.try_emplace({run, map_.run ? row_.run : 0.0}, number).first->second;
+  /// Runs of the map's column and of the files, numbered in the order of their first rows. Sets `begins` for the first
+  /// row of one.
+  double runNumber(const ImportedRows& rows, std::size_t run, bool& begins) {
+    const std::pair<std::size_t, double> key{run, map_.run ? row_.run : 0.0};
+    const auto [number, isNew] = numbers_.try_emplace(key, static_cast<double>(numbers_.size()));
+    if (!isNew && key != lastRun_)
+      throw Error(rows.where() + ": run: got a run that ended before, expected the rows of each run one after the "
+                                 "other; sort the rows by run");
+    lastRun_ = key;
+    begins = isNew;
+    return number->second;
   }
 
-  void requireLater(const ImportedRows& rows, double run) {
-    const auto [last, isNew] = lastTimes_s_.try_emplace(run, row_.time_s);
-    if (!isNew && row_.time_s < last->second)
+  void requireLater(const ImportedRows& rows, bool begins) {
+    if (!begins && row_.time_s < lastTime_s_)
       throw Error(rows.where() + ": time: " +
                   gotExpected(row_.time_s, " s",
-                              shortText(last->second) + " s or later; sort the rows by time" +
+                              shortText(lastTime_s_) + " s or later; sort the rows by time" +
                                   (map_.run ? "" : ", or name the column of the \"run\"")));
-    last->second = row_.time_s;
+    lastTime_s_ = row_.time_s;
   }
 
   void noteLeftOut(const ImportedCounts& counts) {
@@ -276,7 +283,8 @@ private:
   ForceRanges forces_;
   ConstantReadings readings_;
   std::map<std::pair<std::size_t, double>, double> numbers_; ///< of the runs
-  std::map<double, double> lastTimes_s_;                     ///< by run
+  std::pair<std::size_t, double> lastRun_;
+  double lastTime_s_ = 0;
   Imported result_;
 };
 

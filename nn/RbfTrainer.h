@@ -83,6 +83,7 @@ struct FitReport {
   double largestWeight = 0;
   Eigen::VectorXd leaveOneOut; ///< root mean square of the leave-one-out errors, one per output; empty: not requested
   Eigen::MatrixXd leaveOneOutResiduals; ///< outputs x samples; empty: not requested
+  std::string leftOut;                  ///< how rows were left out instead of one by one, as text; empty: one by one
   double seconds = 0;
   std::vector<std::string> warnings; ///< complete sentences
 };

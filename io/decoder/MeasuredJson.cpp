@@ -6,12 +6,17 @@ namespace {
 
 OrderedJson memoryJson(const InputStage& stage) {
   OrderedJson json{{"times_s", stage.times_s}, {"of", "readings"}, {"longest_gap_s", stage.longestGap_s}};
+  if (stage.rowsAreClock) json["clock"] = "rows";
   if (stage.weights.size() > 0) json["of"] = {{"weights", toJson(stage.weights)}, {"constant", toJson(stage.constant)}};
   return json;
 }
 
 void readMemory(const JsonPlace& place, InputStage& stage, Eigen::Index readings) {
-  place.onlyKeys({"times_s", "of", "longest_gap_s"});
+  place.onlyKeys({"times_s", "of", "longest_gap_s"}, {"clock"});
+  if (place.has("clock")) {
+    if (place.at("clock").string() != "rows") place.at("clock").refuse("\"rows\", or no such key for times");
+    stage.rowsAreClock = true;
+  }
   stage.times_s = place.at("times_s").numbers();
   if (stage.times_s.empty()) place.at("times_s").refuse("one time constant or more");
   for (const double time_s : stage.times_s)

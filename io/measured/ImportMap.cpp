@@ -246,6 +246,7 @@ ImportMap importMapFrom(Json json, const std::string& file) {
   root.onlyKeys({"palp_import"},
                 {"resistances", "signals", "forces", "separator", "decimal", "names_line", "first_line", "dates",
                  "area", "place", "time", "run", "bad_rows", "longest_gap_s", "about"});
+  if (root.has("about")) (void)root.at("about").string();
   ImportMap map;
   readForm(root, map.form);
   if (root.has("resistances") == root.has("signals")) root.refuse("\"resistances\" or \"signals\", one of both");

@@ -1,5 +1,6 @@
 #include "io/measured/ImportedRows.h"
 
+#include "model/base/Cancelled.h"
 #include "model/base/Error.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
@@ -75,7 +76,8 @@ struct ImportedRows::Series {
   Eigen::VectorXd now;
 };
 
-ImportedRows::ImportedRows(const ImportMap& map, const std::string& mapFile, std::vector<fs::path> tables)
+ImportedRows::ImportedRows(const ImportMap& map, const std::string& mapFile, std::vector<fs::path> tables,
+                           const std::stop_token& stop)
     : map_(map), mapFile_(mapFile), tables_(tables.size()), files_(std::move(tables)) {
   if (files_.size() != static_cast<std::size_t>(map.tables))
     throw Error(mapFile + ": tables: " +
@@ -118,7 +120,7 @@ ImportedRows::ImportedRows(const ImportMap& map, const std::string& mapFile, std
       one->values.resize(one->chosen.size());
     }
   for (Group* one : {forces_.get(), places_.get()})
-    if (one->own) loadSeries(*one);
+    if (one->own) loadSeries(*one, stop);
 }
 
 ImportedRows::~ImportedRows() = default;
@@ -223,7 +225,7 @@ void ImportedRows::addGroup(Group& group, const ImportedGroup& source, Quantity 
   group.factor = unitFactor(*group.table, source, quantity, key);
 }
 
-void ImportedRows::loadSeries(Group& group) {
+void ImportedRows::loadSeries(Group& group, const std::stop_token& stop) {
   Table& own = *group.own;
   own.source->choose(own.chosen);
   own.values.resize(own.chosen.size());
@@ -231,6 +233,7 @@ void ImportedRows::loadSeries(Group& group) {
   Series& series = *group.series;
   std::vector<std::string> problems;
   for (; own.source->next(own.values, problems); problems.clear()) {
+    throwIfStopped(stop);
     if (!problems.empty() && !map_.leaveOutBadRows) throw Error(own.where() + ": " + problems.front());
     if (!problems.empty()) continue;
     const double time_s = group.clockFactor * own.values[group.clock] + group.clockOffset_s;

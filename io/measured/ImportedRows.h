@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <stop_token>
 
 namespace palp {
 
@@ -31,8 +32,10 @@ struct ImportedCounts {
 /// values are interpolated.
 class ImportedRows {
 public:
-  /// Opens the tables and finds the map's columns. Throws Error: map, column, and the columns that there are.
-  ImportedRows(const ImportMap& map, const std::string& mapFile, std::vector<std::filesystem::path> tables);
+  /// Opens the tables and finds the map's columns. Throws Error: map, column, and the columns that there are; Cancelled
+  /// where a table of another clock is loaded.
+  ImportedRows(const ImportMap& map, const std::string& mapFile, std::vector<std::filesystem::path> tables,
+               const std::stop_token& stop);
   ~ImportedRows();
 
   /// The next row; false at the end. `problems` gets what is wrong with it, each beginning with table and line; the row
@@ -57,7 +60,7 @@ private:
   void addGroup(Group& group, const ImportedGroup& source, Quantity quantity, const char* key);
   double unitFactor(Table& table, const ImportedGroup& group, Quantity quantity, const char* key);
   double clockFactor(Table& table, const ImportedClock& clock);
-  void loadSeries(Group& group);
+  void loadSeries(Group& group, const std::stop_token& stop);
   bool interpolate(Group& group, double time_s);
   void take(const Group& group, double* to, std::vector<std::string>& problems) const;
   void resistances(Eigen::VectorXd& readings, std::vector<std::string>& problems) const;

@@ -23,21 +23,8 @@ mat_t* matOf(void* file) {
 }
 
 bool isNumeric(const matvar_t& variable) {
-  switch (variable.class_type) {
-  case MAT_C_DOUBLE:
-  case MAT_C_SINGLE:
-  case MAT_C_INT8:
-  case MAT_C_UINT8:
-  case MAT_C_INT16:
-  case MAT_C_UINT16:
-  case MAT_C_INT32:
-  case MAT_C_UINT32:
-  case MAT_C_INT64:
-  case MAT_C_UINT64:
-    return variable.isComplex == 0 && variable.rank >= 2 && variable.dims != nullptr;
-  default:
-    return false;
-  }
+  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64 && variable.isComplex == 0 &&
+         variable.rank >= 2 && variable.dims != nullptr;
 }
 
 /// A row vector counts as a column.

@@ -48,9 +48,11 @@ std::vector<Eigen::MatrixXd> GroupRidge::errors(const std::vector<Fold>& folds, 
     const Eigen::MatrixXd out = a_(fold.leftOut, Eigen::all), judged = a_(fold.judged, Eigen::all);
     const Eigen::MatrixXd normal = normal_ - lapack::gram(out);
     const Eigen::MatrixXd right = right_ - out.transpose() * y_(fold.leftOut, Eigen::all);
-    for (std::size_t l = 0; l < lambdas.size(); ++l)
+    for (std::size_t l = 0; l < lambdas.size(); ++l) {
+      throwIfStopped(stop);
       all[l](fold.judged, Eigen::all) =
           y_(fold.judged, Eigen::all) - judged * solved(penalised(normal, lambdas[l]), right);
+    }
   }
   return all;
 }

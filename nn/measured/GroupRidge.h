@@ -27,7 +27,7 @@ public:
   /// precision.
   [[nodiscard]] Eigen::MatrixXd fit(double lambda) const;
   /// y minus the prediction of a fit without the fold's rows, for all judged rows (0 elsewhere): rows x outputs for
-  /// each lambda. Throws Cancelled between folds.
+  /// each lambda. Throws Cancelled between solutions.
   [[nodiscard]] std::vector<Eigen::MatrixXd> errors(const std::vector<Fold>& folds, const std::vector<double>& lambdas,
                                                     const std::stop_token& stop) const;
   /// The same with each single row left out: r / (1 - h).

@@ -34,11 +34,25 @@ Eigen::MatrixXd InputStage::held(const Eigen::Ref<const Eigen::MatrixXd>& readin
   return result;
 }
 
+Eigen::MatrixXd InputStage::slope(const Eigen::Ref<const Eigen::VectorXd>& readings) const {
+  Eigen::VectorXd direct = Eigen::VectorXd::Ones(readings.size());
+  if (transform == ReadingTransform::Logarithm) direct = readings.cwiseInverse();
+  if (transform == ReadingTransform::Inverse) direct = -readings.cwiseInverse().cwiseAbs2();
+  Eigen::MatrixXd result(inputs(readings.size()), readings.size());
+  result.topRows(readings.size()) = direct.asDiagonal();
+  if (!hasMemory()) return result;
+  const Eigen::MatrixXd remembered =
+      weights.size() == 0 ? Eigen::MatrixXd(direct.asDiagonal()) : Eigen::MatrixXd(weights * direct.asDiagonal());
+  result.bottomRows(result.rows() - readings.size()) =
+      remembered.replicate(static_cast<Eigen::Index>(times_s.size()), 1);
+  return result;
+}
+
 Eigen::MatrixXd InputStage::apply(const Eigen::Ref<const Eigen::MatrixXd>& readings, const Eigen::MatrixXd& clock_s,
                                   const Eigen::MatrixXd& runs) const {
   const Eigen::MatrixXd direct = transformed(readings);
   if (!hasMemory()) return direct;
-  if (clock_s.rows() == 0 && readings.cols() > 0)
+  if (!rowsAreClock && clock_s.rows() == 0 && readings.cols() > 0)
     throw NetworkError("the network has a memory and needs the time of each sample");
   const Eigen::MatrixXd all = rememberedOf(direct);
   Eigen::MatrixXd result(inputs(readings.rows()), readings.cols());
@@ -46,7 +60,8 @@ Eigen::MatrixXd InputStage::apply(const Eigen::Ref<const Eigen::MatrixXd>& readi
   MemoryStates states(times_s, longestGap_s);
   for (Eigen::Index i = 0; i < readings.cols(); ++i) {
     if (i > 0 && runs.rows() > 0 && runs(0, i) != runs(0, i - 1)) states.reset();
-    result.col(i).tail(result.rows() - readings.rows()) = states.next(clock_s(0, i), all.col(i));
+    result.col(i).tail(result.rows() - readings.rows()) =
+        states.next(rowsAreClock ? static_cast<double>(i) : clock_s(0, i), all.col(i));
   }
   return result;
 }
@@ -56,7 +71,6 @@ const Eigen::VectorXd& MemoryStates::next(double time_s, const Eigen::Ref<const 
   const double gap_s = time_s - time_s_;
   if (!started_ || gap_s < 0 || (longestGap_s_ > 0 && gap_s > longestGap_s_)) {
     started_ = true;
-    begin_s_ = time_s;
     states_ = signals.replicate(1, times);
     differences_.setZero(signals.size() * times);
   } else {
@@ -71,12 +85,6 @@ const Eigen::VectorXd& MemoryStates::next(double time_s, const Eigen::Ref<const 
   time_s_ = time_s;
   before_ = signals;
   return differences_;
-}
-
-void MemoryStates::shift(const Eigen::VectorXd& change) {
-  if (!started_) return;
-  before_ += change;
-  states_.colwise() += change;
 }
 
 } // namespace palp

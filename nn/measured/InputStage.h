@@ -25,8 +25,8 @@ struct InputStage {
   Eigen::MatrixXd weights;     ///< signals x readings; empty: the signals are the transformed readings
   Eigen::VectorXd constant;    ///< signals
   double longestGap_s = 0;     ///< a longer one between two samples begins a new run; 0: none does
+  bool rowsAreClock = false;   ///< times are the samples' numbers: they are equally spaced
 
-  [[nodiscard]] bool isIdentity() const { return transform == ReadingTransform::None && times_s.empty(); }
   [[nodiscard]] bool hasMemory() const { return !times_s.empty(); }
   [[nodiscard]] Eigen::Index inputs(Eigen::Index readings) const;
 
@@ -34,12 +34,20 @@ struct InputStage {
   [[nodiscard]] Eigen::MatrixXd rememberedOf(const Eigen::Ref<const Eigen::MatrixXd>& transformed) const;
   /// The same for readings that have been held for long: the differences are 0.
   [[nodiscard]] Eigen::MatrixXd held(const Eigen::Ref<const Eigen::MatrixXd>& readings) const;
+  /// Derivative of the inputs by the readings at one sample, inputs x readings, for a change that is quick against the
+  /// memory: the states stay.
+  [[nodiscard]] Eigen::MatrixXd slope(const Eigen::Ref<const Eigen::VectorXd>& readings) const;
   /// Inputs x samples from readings x samples. `clock_s` and `runs` (1 x samples; no rows: no clock, one run) are
-  /// needed by a memory: a new run begins where the run changes or a gap is too long. Throws NetworkError without a
-  /// clock.
+  /// needed by a memory, unless rows are its clock: a new run begins where the run changes or a gap is too long. Throws
+  /// NetworkError without a clock.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& readings, const Eigen::MatrixXd& clock_s,
                                       const Eigen::MatrixXd& runs) const;
 };
+
+/// 0, 1, 2, ...: the clock of rows that are equally spaced in time.
+inline Eigen::VectorXd rowNumbers(Eigen::Index count) {
+  return Eigen::VectorXd::LinSpaced(count, 0, static_cast<double>(count - 1));
+}
 
 /// First-order low passes of signals, exact for signals that are linear between their samples, at any spacing.
 class MemoryStates {
@@ -51,16 +59,12 @@ public:
   void reset() { started_ = false; }
   /// Signals minus their states after this sample, the first time constant first: (signals times) numbers.
   const Eigen::VectorXd& next(double time_s, const Eigen::Ref<const Eigen::VectorXd>& values);
-  /// Adds `change` to the signals before and all states, as where readings were tared.
-  void shift(const Eigen::VectorXd& change);
-  /// Whether less than the longest time constant has passed since the run began.
-  [[nodiscard]] bool fills() const { return started_ && time_s_ - begin_s_ < times_s_.back(); }
 
 private:
   std::vector<double> times_s_;
   double longestGap_s_;
   bool started_ = false;
-  double time_s_ = 0, begin_s_ = 0;
+  double time_s_ = 0;
   Eigen::VectorXd before_; ///< signals of the last sample
   Eigen::MatrixXd states_; ///< signals x times
   Eigen::VectorXd differences_;

@@ -2,6 +2,7 @@
 
 #include "nn/RbfNetwork.h"
 #include "nn/measured/InputStage.h"
+#include "nn/measured/MeasuredErrors.h"
 #include "nn/measured/RowDependence.h"
 
 #include <Eigen/Core>
@@ -13,32 +14,12 @@
 
 namespace palp {
 
-/// Standard deviation of a predicted target, sqrt(a^2 + (b |F|)^2): |F|^2 is the sum over the targets of (F_j /
-/// range_j)^2.
-struct DeviationLaw {
-  Eigen::VectorXd a, b, range;
-
-  /// Returns the deviations, targets x samples, from predicted targets of the same shape.
-  [[nodiscard]] Eigen::MatrixXd at(const Eigen::Ref<const Eigen::MatrixXd>& predicted) const;
-};
-
-/// Detects inputs far from the training inputs: their squared Mahalanobis distance exceeds `limit`.
-struct TrainingEllipse {
-  Eigen::VectorXd offset; ///< mean of the scaled training inputs
-  Eigen::MatrixXd inverseCovariance;
-  double limit = 0;
-
-  /// Returns the squared Mahalanobis distance.
-  [[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& scaled) const;
-};
-
 /// Prescribed settings; empty ones are chosen by cross-validation.
 struct MeasuredOptions {
   std::optional<RowOrder> order;
   std::optional<ReadingTransform> transform;
   std::optional<std::vector<double>> memory_s; ///< time constants; empty: no memory
-  bool rowsAreClock = false;                   ///< rows are equally spaced in time
-  bool lineOnly = false;                       ///< no Gaussians
+  bool rowsAreClock = false;                   ///< times are the rows' numbers: they are equally spaced in time
   std::optional<double> spread;                ///< of the Gaussians, where the mean square length of the inputs is 1
   std::optional<double> ridge;                 ///< lambda of GroupRidge
   std::optional<int> centers;                  ///< largest number of centres; nullopt: 500
@@ -55,11 +36,9 @@ struct MeasuredValidation {
   Eigen::VectorXd singleRow;            ///< `stated` with single rows left out
   std::optional<double> recordingScore; ///< the score with a complete run left out, if there are 2 to 4 runs
   Eigen::VectorXd recording;            ///< `stated` with a complete run left out
-  bool noClock = false;                 ///< rows depend on each other but have no times: no memory was tried
   double lambda = 0;
-  Eigen::Index rows = 0;  ///< number of rows fitted; of a longer table every k-th row or run
-  Eigen::MatrixXd errors; ///< left-out errors, targets x rows fitted
-  std::vector<Eigen::Index> fittedRows;
+  Eigen::MatrixXd errors;               ///< left-out errors, targets x rows fitted
+  std::vector<Eigen::Index> fittedRows; ///< of a longer table every k-th row or run
 };
 
 /// A network trained on measured rows, with its inputs and its errors.
@@ -68,7 +47,6 @@ struct MeasuredFit {
   RbfNetwork network; ///< its inputs are those of the stage; without centres it is a linear model
   DeviationLaw deviation;
   TrainingEllipse ellipse;
-  Eigen::VectorXd low, high; ///< limits of predictions: the training range extended by 10 % on both sides
   MeasuredValidation validation;
 };
 

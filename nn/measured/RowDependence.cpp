@@ -1,5 +1,6 @@
 #include "nn/measured/RowDependence.h"
 
+#include "model/base/Cancelled.h"
 #include "nn/linear/RandomNumbers.h"
 
 #include <algorithm>
@@ -45,13 +46,15 @@ Eigen::MatrixXd unitLength(const Eigen::MatrixXd& values) {
 
 /// A line's leave-one-out errors by the ridge with the least of them, each to mean 0, deviation 1 and at most 3; empty
 /// if no ridge gives any (readings that do not vary).
-Eigen::MatrixXd lineErrors(const Eigen::MatrixXd& readings, const Eigen::MatrixXd& targets) {
+Eigen::MatrixXd lineErrors(const Eigen::MatrixXd& readings, const Eigen::MatrixXd& targets,
+                           const std::stop_token& stop) {
   const GroupRidge line(standardised(readings), targets);
   const Eigen::RowVectorXd variance =
       (targets.rowwise() - targets.colwise().mean()).colwise().squaredNorm() / static_cast<double>(targets.rows());
   Eigen::MatrixXd best;
   double least = std::numeric_limits<double>::infinity();
   for (int exponent = -8; exponent < 0; ++exponent) {
+    throwIfStopped(stop);
     Eigen::MatrixXd errors = line.singleRowErrors(std::pow(10.0, exponent));
     double score = 0;
     for (Eigen::Index j = 0; j < errors.cols(); ++j)
@@ -156,13 +159,14 @@ Eigen::VectorXi nearlyEqualRows(const Eigen::MatrixXd& readings, const Eigen::Ma
 }
 
 RowDependence findDependence(const MeasuredRows& rows, const std::optional<RowOrder>& order,
-                             const std::stop_token& /*stop*/) {
+                             const std::stop_token& stop) {
   RowDependence found;
   const Eigen::MatrixXd readings = middle(rows.readings), targets = middle(rows.targets);
   const Eigen::Index first = (rows.size() - readings.rows()) / 2;
   const Eigen::VectorXi runs = rows.runs.segment(first, readings.rows());
   const auto count = static_cast<double>(readings.rows());
-  if (readings.rows() > 1) found.correlation = neighbourCorrelation(lineErrors(readings, targets), runs);
+  if (readings.rows() > 1) found.correlation = neighbourCorrelation(lineErrors(readings, targets, stop), runs);
+  throwIfStopped(stop);
   found.leaders = (nearlyEqualRows(readings, targets).maxCoeff() + 1) / count;
   if (order)
     found.order = *order;

@@ -40,7 +40,7 @@ struct RowDependence {
 };
 
 /// Looks at up to 6,000 neighbouring rows from the middle of the table. Runs count from five of them on; `order`
-/// overrules what is detected.
+/// overrules what is detected. Throws Cancelled.
 RowDependence findDependence(const MeasuredRows& rows, const std::optional<RowOrder>& order,
                              const std::stop_token& stop);
 

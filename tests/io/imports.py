@@ -136,6 +136,10 @@ def check_use():
     assert max(result["error"]["mean_absolute_N"]) < 0.05, result["error"]
     rows = made("sweep", "samples.h5", "--test", "test.h5", *options, "--spreads", "3,10")["rows"]
     assert len(rows) == 2
+    kept = made("train", "samples.h5", "--split", "time:0.7", "-o", "kept.json")["kept_back"]
+    assert kept["samples"] == 90 and max(kept["error"]["mean_absolute_N"]) < 0.05, kept
+    rows = made("sweep", "samples.h5", "--split", "time:0.7", "--spreads", "1,3")["rows"]
+    assert [row["spread"] for row in rows] == [1, 3] and max(rows[1]["error"]["mean_absolute_N"]) < 0.05, rows
     result = palp("train", "samples.h5", "--input", "displacement", "-o", "never.json")
     assert result.returncode == 2 and result.stderr.count("\n") == 1, result
 
@@ -206,6 +210,7 @@ def check_broken_tables():
     refused(twin("d.csv", set_field(7, "pad", "3")), good, "line 8", "area: got 2", "0 to 1")
     refused(twin("e.csv", set_field(7, "pad", "1.5")), good, "line 8", "area: got 0.5")
     refused(twin("f.csv", set_field(7, "t", "0")), good, "line 8", "time: got 0 s")
+    refused("table.csv", mapped("runs.json", run="pad", area=None, time=None), "table.csv, line ", "sort the rows by run")
     refused(twin("g.csv", cut_line(200)), good, "line 201", "17 fields", "18")
     refused(twin("h.csv", lambda lines: lines.__delitem__(slice(1, None))), good, "no rows")
     refused(twin("i.csv", set_field(0, "Fy", "Fx")), good, '"Fx"', "twice")

@@ -203,8 +203,7 @@ Exit run(const PredictArguments& arguments, Session& session) {
     throw UsageError("--design: samples: " + gotExpected("two touches per sample", "one"));
   const Eigen::MatrixXd clean = inputsOf(samples, decoder.input);
   const Eigen::MatrixXd inputs = noisyCopies(clean, options.noise, 1, static_cast<std::uint64_t>(seed));
-  Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, inputs, options); });
-  for (std::string& warning : otherSamples(decoder, samples)) prediction.warnings.push_back(std::move(warning));
+  Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, samples, inputs, options); });
   for (const std::string& warning : prediction.warnings) std::cerr << "palp predict: " << warning << '\n';
   session.warnings.insert(session.warnings.end(), prediction.warnings.begin(), prediction.warnings.end());
   throwIfStopped(session.stop);

@@ -56,7 +56,6 @@ MeshOptions meshOf(const ReportRequest& request, const std::string& kind) {
 
 Exit run(ReportArguments& arguments, Session& session) {
   if (arguments.folder.empty()) arguments.folder = "palp-report-" + arguments.kind;
-  const OutputFolder folder(arguments.folder, arguments.force);
   const std::vector<ReportComputation>& kinds = reportComputations();
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == arguments.kind; });
   ReportRequest request;
@@ -73,6 +72,7 @@ Exit run(ReportArguments& arguments, Session& session) {
     request.touches = arguments.touches.range(request.design);
     (void)mapRequest(*request.touches, request.design, 1e-4, {2, 2}, "report " + arguments.kind); // refuses
   }
+  const OutputFolder folder(arguments.folder, arguments.force);            // once the options are right
   printMeshCost(request.design, meshOf(request, arguments.kind), session); // refuses as well: some kinds mesh late
   request.threads = session.threads;
   request.command = commandLine(arguments);

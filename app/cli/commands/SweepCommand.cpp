@@ -1,5 +1,6 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/commands/TrainArguments.h"
+#include "app/study/decoding/DecoderTraining.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/SampleFile.h"
@@ -9,6 +10,7 @@
 #include "nn/SpreadSweep.h"
 
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -23,6 +25,7 @@ struct SweepArguments {
   std::string spreads = "0.3:30:21";
   std::string testNoise = "0";
   TrainArguments train;
+  SplitOption split;
 };
 
 /// "0.8,0.9,1" or "FROM:TO:COUNT", evenly on a logarithmic scale.
@@ -68,6 +71,60 @@ void print(const std::vector<SweepRow>& rows) {
               << row.report.seconds << '\n';
 }
 
+/// Training and test samples: of two files, or of one that is divided.
+SplitSamples samplesOf(const SweepArguments& arguments, const std::stop_token& stop) {
+  if (arguments.split.given() == !arguments.test.empty())
+    throw UsageError("--test: got " +
+                     std::string(arguments.test.empty() ? "neither --test nor --split" : "both --test and --split") +
+                     ", expected one of them");
+  SampleSet training = loadSamples(arguments.samples, stop);
+  if (arguments.split.given()) return arguments.split.of(training);
+  return {std::move(training), loadSamples(arguments.test, stop)};
+}
+
+/// Measured rows: transform and memory are chosen once, then each spread is trained and tested with them.
+std::vector<SweepRow> sweepMeasured(const SplitSamples& samples, const TrainOptions& given,
+                                    const std::vector<double>& spreads, double testNoise,
+                                    const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
+  const Decoder chosen = trainDecoder(samples.training, nullptr, given, stop);
+  const InputStage& stage = chosen.measured->stage;
+  TrainOptions options = given;
+  options.order = chosen.measured->dependence.order;
+  options.transform = stage.transform;
+  if (!stage.hasMemory()) options.memory = "none";
+  for (const double time : stage.times_s) options.memory += (options.memory.empty() ? "" : ",") + text(time);
+  PredictOptions bare;
+  bare.standardDeviation = bare.area = false;
+  const Eigen::MatrixXd inputs =
+      noisyCopies(inputsOf(samples.test, chosen.input), testNoise, 1, testSeed(options.seed), stop);
+  std::vector<SweepRow> rows;
+  for (const double spread : spreads) {
+    if (stop.stop_requested()) return rows;
+    options.spread = spread;
+    Decoder decoder = trainDecoder(samples.training, nullptr, options, stop);
+    Prediction prediction = predict(decoder, samples.test, inputs, bare);
+    rows.push_back({spread, decoderError(decoder, prediction, samples.test).error, std::move(decoder.report),
+                    std::move(prediction.forces_N)});
+    progress(rows.size());
+  }
+  return rows;
+}
+
+std::vector<SweepRow> sweepComputed(const SplitSamples& samples, const TrainOptions& options,
+                                    const std::vector<double>& spreads, double testNoise,
+                                    const std::function<void(std::size_t)>& progress, const std::stop_token& stop) {
+  const auto& [training, test] = samples;
+  DecoderInput input;
+  input.kind = options.input;
+  input.rowWires = training.rowWires;
+  input.rows = rowsNamed(options.rows, training.rowWires);
+  input.valuesPerRow = input.kind == InputKind::Displacement ? 3 * training.electrodesPerRowWire : training.columnWires;
+  const SweepInput data{inputsOf(training, input), training.forces_N,
+                        noisyCopies(inputsOf(test, input), testNoise, 1, testSeed(options.seed)), test.forces_N,
+                        training.forces_N.rowwise().maxCoeff() - training.forces_N.rowwise().minCoeff()};
+  return sweepSpreads(data, spreads, rbfOptions(options, training.size()), progress, stop);
+}
+
 Exit run(const SweepArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
@@ -77,24 +134,17 @@ Exit run(const SweepArguments& arguments, Session& session) {
   const double testNoise = number("--test-noise", arguments.testNoise);
   if (!(testNoise >= 0 && testNoise <= 0.5))
     throw badValue("--test-noise", arguments.testNoise, "0 to 0.5 (relative standard deviation)");
-  const SampleSet training = loadSamples(arguments.samples, session.stop),
-                  test = loadSamples(arguments.test, session.stop);
-  DecoderInput input;
-  input.kind = options.input;
-  input.rowWires = training.rowWires;
-  input.rows = rowsNamed(options.rows, training.rowWires);
-  input.valuesPerRow = input.kind == InputKind::Displacement ? 3 * training.electrodesPerRowWire : training.columnWires;
-  if (training.forces_N.rows() != test.forces_N.rows())
+  const SplitSamples samples = samplesOf(arguments, session.stop);
+  if (samples.training.forces_N.rows() != samples.test.forces_N.rows())
     throw Error(arguments.test + ": forces per sample: " +
-                gotExpected(std::to_string(test.forces_N.rows()),
-                            std::to_string(training.forces_N.rows()) + ", as in the training samples"));
-  const SweepInput data{inputsOf(training, input), training.forces_N,
-                        noisyCopies(inputsOf(test, input), testNoise, 1, testSeed(options.seed)), test.forces_N,
-                        training.forces_N.rowwise().maxCoeff() - training.forces_N.rowwise().minCoeff()};
+                gotExpected(std::to_string(samples.test.forces_N.rows()),
+                            std::to_string(samples.training.forces_N.rows()) + ", as in the training samples"));
+  takeDefaultsOf(samples.training, arguments.train.isGiven("input"), arguments.train.isGiven("rows"), options);
+  auto* const sweep = trainsAsMeasured(samples.training, options) ? &sweepMeasured : &sweepComputed;
   ProgressBar bar("spreads", spreads.size());
   const std::vector<SweepRow> rows = session.stages.measure("train", [&] {
-    return sweepSpreads(
-        data, spreads, rbfOptions(options, training.size()), [&](std::size_t done) { bar.show(done); }, session.stop);
+    return sweep(
+        samples, options, spreads, testNoise, [&](std::size_t done) { bar.show(done); }, session.stop);
   });
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   const SweepRow* best = nullptr;
@@ -122,7 +172,8 @@ void addSweep(Cli& cli) {
                   [arguments](Session& session) { return run(*arguments, session); });
   command.option("samples", arguments->samples, "FILE", "sample file to train with").required();
   command.group("Sweep");
-  command.option("--test", arguments->test, "FILE", "sample file to test with").required();
+  command.option("--test", arguments->test, "FILE", "sample file to test with");
+  arguments->split.declare(command);
   command.option("--spreads", arguments->spreads, "SPREADS",
                  "0.8,0.9,1 or FROM:TO:COUNT (logarithmic; default 0.3:30:21)");
   command.option("--test-noise", arguments->testNoise, "NUMBER",

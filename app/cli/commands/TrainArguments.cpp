@@ -39,6 +39,18 @@ TrainOptions TrainArguments::options() const {
   return result;
 }
 
+void SplitOption::declare(Command command) {
+  command.option("--split", value, "SPLIT",
+                 "time or runs, with a share (default 0.8): keeps the last rows, or the last runs, back from training "
+                 "to test with; for example time:0.7");
+}
+
+SplitSamples SplitOption::of(const SampleSet& samples) const {
+  const std::optional<SampleSplit> by = sampleSplit(value);
+  if (!by) throw badValue("--split", value, "time or runs, with a share above 0 and below 1, for example time:0.7");
+  return split(samples, *by);
+}
+
 nlohmann::ordered_json listJson(const Eigen::VectorXd& values) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const double value : values)

@@ -2,6 +2,7 @@
 
 #include "app/cli/Options.h"
 #include "app/study/decoding/TrainOptions.h"
+#include "app/study/decoding/measured/SampleSplit.h"
 #include "nn/RelativeError.h"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,16 @@ struct TrainArguments {
   [[nodiscard]] bool isGiven(const std::string& name) const;
   /// Throws UsageError with the option, its value and what is allowed.
   [[nodiscard]] TrainOptions options() const;
+};
+
+/// The option --split of train and sweep.
+struct SplitOption {
+  std::string value;
+
+  void declare(Command command);
+  [[nodiscard]] bool given() const { return !value.empty(); }
+  /// Throws UsageError with the value and what is allowed, and Error where the samples cannot be divided so.
+  [[nodiscard]] SplitSamples of(const SampleSet& samples) const;
 };
 
 /// { eq13_percent, eq13_floored_percent, mean_absolute_N, rmse_percent_of_range }, each [outputs]; null for infinite.

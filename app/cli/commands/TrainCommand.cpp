@@ -20,6 +20,7 @@ struct TrainCommandArguments {
   std::string samples;
   std::string design;
   TrainArguments train;
+  SplitOption split;
   OutputFile output;
 };
 
@@ -72,15 +73,26 @@ void print(const Decoder& decoder, const SampleSet& samples, const Session& sess
               << session.result["spread_convention"].get<std::string>() << ", scaler "
               << session.result["scaler"].get<std::string>() << "), ridge " << report.ridge << ", condition "
               << report.condition << ", rank " << report.rank << ", largest weight " << report.largestWeight;
-  std::cout << "\nerror found in training [N" << (decoder.place ? ", mm" : "")
-            << "]: " << report.leaveOneOut.transpose() << "; " << report.seconds << " s\n";
+  if (!report.leftOut.empty()) std::cout << '\n' << report.leftOut;
+  std::cout << "\nerror " << (report.leftOut.empty() ? "found in training" : "on later rows") << " [N"
+            << (decoder.place ? ", mm" : "") << "]: " << report.leaveOneOut.transpose() << "; " << report.seconds
+            << " s\n";
+}
+
+/// How well it predicts the samples that --split kept back.
+void tryOn(const Decoder& decoder, const SampleSet& kept, Session& session) {
+  const Prediction prediction = session.stages.measure("predict", [&] { return predict(decoder, kept); });
+  const DecoderError error = decoderError(decoder, prediction, kept);
+  session.result["kept_back"] = {{"samples", kept.size()}, {"error", errorJson(error.error)}};
+  if (!session.json) std::cout << keptBackInWords(decoder, prediction, kept) << '\n';
 }
 
 /// Options of measured rows where none are trained.
 void requireMeasured(const SampleSet& samples, const TrainOptions& options) {
   if (trainsAsMeasured(samples, options)) return;
-  for (const auto& [name, given] : {std::pair{"order", options.order.has_value()},
-                                    {"transform", options.transform.has_value()},
+  if (options.order && (!samples.origin.imported() || samples.together()))
+    throw UsageError("--order: is for measured samples (palp import); these samples were computed");
+  for (const auto& [name, given] : {std::pair{"transform", options.transform.has_value()},
                                     {"memory", !options.memory.empty()},
                                     {"clock", options.clock.has_value()}})
     if (given)
@@ -93,7 +105,13 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
   TrainOptions options = arguments.train.options();
   options.threads = session.threads;
   arguments.output.requireWritable();
-  const SampleSet samples = loadSamples(arguments.samples, session.stop);
+  SampleSet samples = loadSamples(arguments.samples, session.stop);
+  std::optional<SampleSet> kept;
+  if (arguments.split.given()) {
+    SplitSamples parts = arguments.split.of(samples);
+    samples = std::move(parts.training);
+    kept = std::move(parts.test);
+  }
   std::optional<SensorDesign> design;
   if (!arguments.design.empty()) design = designOption(arguments.design);
   if (design && options.decoder == DecoderKind::TouchInversion && samples.hasTouches())
@@ -114,6 +132,7 @@ Exit run(const TrainCommandArguments& arguments, Session& session) {
     if (!session.json) std::cout << "bound of the design at this noise, % of range: " << inWords(bound) << '\n';
   }
   if (!session.json) print(decoder, samples, session);
+  if (kept) tryOn(decoder, *kept, session);
   return Exit::Done;
 }
 
@@ -126,6 +145,7 @@ void addTrain(Cli& cli) {
                                 [arguments](Session& session) { return run(*arguments, session); });
   command.option("samples", arguments->samples, "FILE", "sample file to train with").required();
   arguments->train.declare(command);
+  arguments->split.declare(command);
   command.option("--design", arguments->design, "DESIGN",
                  "design file, or paper; two-step-gn inverts its resistance law, touch takes its prior mean from it");
   arguments->output.declare(command, "network file to write").required();

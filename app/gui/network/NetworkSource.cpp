@@ -94,7 +94,7 @@ private:
     if (samples == nullptr) return {};
     if (samples->file.isEmpty()) return {sampleCommands(ofSamples(), kDesignFile)};
     QString words = QObject::tr("train.csv, test.csv: the samples of %1").arg(QFileInfo(samples->file).fileName());
-    if (samples->split) words += QObject::tr(", every fifth one for testing");
+    if (samples->split) words += QObject::tr(", %1 for testing").arg(heldOutWords(samples->training));
     if (!samples->training.origin.mesh.empty()) words += "; " + QString::fromStdString(samples->training.origin.mesh);
     return {words};
   }

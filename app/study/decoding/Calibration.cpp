@@ -241,7 +241,9 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   requireUsable(decoder, frames);
   PredictOptions forcesAlone;
   forcesAlone.standardDeviation = forcesAlone.area = false;
-  const Prediction predicted = predict(decoder, inputsOf(frames, decoder.input), forcesAlone);
+  const Prediction predicted = frames.times_s.rows() > 0
+                                   ? predict(decoder, frames, forcesAlone)
+                                   : predict(decoder, inputsOf(frames, decoder.input), forcesAlone);
   const Eigen::Vector3d range_N = decoder.high_N - decoder.low_N;
   // A force that never varied in training has no part in the fit's scale.
   const Eigen::Vector3d scale_N = (range_N.array() > 0).select(range_N, range_N.maxCoeff());
@@ -270,11 +272,13 @@ Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std
   report.modelMismatch = modelMismatch(decoder, frames);
   report.opposed = opposedComponents(scaled);
 
-  const OutputCorrection affine =
-      ofAll(inUnits(fit(scaled, -1), scale_N), places, decoder.outputs() + (decoder.place ? 2 : 0));
-  if (auto* network = std::get_if<RbfNetwork>(&result.decoder.model)) apply(*network, affine);
-  if (auto* model = std::get_if<ForwardModel>(&result.decoder.model)) apply(*model, affine);
-  if (std::holds_alternative<KernelForwardModel>(decoder.model)) apply(result.decoder.correction, affine);
+  const OutputCorrection affine = ofAll(inUnits(fit(scaled, -1), scale_N), places, decoder.answers());
+  if (keepsCorrection(decoder))
+    apply(result.decoder.correction, affine);
+  else if (auto* network = std::get_if<RbfNetwork>(&result.decoder.model))
+    apply(*network, affine);
+  else if (auto* model = std::get_if<ForwardModel>(&result.decoder.model))
+    apply(*model, affine);
   result.decoder.residual_N = report.rmseAfter_N.replicate(1, std::max<Eigen::Index>(1, decoder.residual_N.cols()));
   result.decoder.trainedWith = withCalibrationMark(decoder.trainedWith, frames.size());
   if (report.place) result.decoder.place->residual_mm = report.place->rmseAfter_mm;

@@ -49,8 +49,9 @@ struct Calibration {
 
 /// Refines a network with labelled frames of a real board: recursive least squares for F = A N(R) + b from A = 1, b =
 /// 0, which an RBF network takes into its weights and the polynomials of maximum likelihood into their arguments; that
-/// of touches keeps it as a correction of its answers. Places, where both have them, are refined alike. Throws Error
-/// where the network is another one, the frames are of other wires or too few, and Cancelled.
+/// of touches and that of measured rows keep it as a correction of their answers. Places, where both have them, are
+/// refined alike. Throws Error where the network is another one, the frames are of other wires or too few, and
+/// Cancelled.
 Calibration calibrate(const Decoder& decoder, const SampleSet& frames, const std::stop_token& stop = {});
 
 /// A known load on the board: on an area, or by a touch at a place, whose area is the one under it.

@@ -30,9 +30,8 @@ bool calibrated(const Decoder& decoder) {
 }
 
 Eigen::VectorXd calibrationError_N(const Decoder& decoder) {
-  const bool inverts =
-      std::holds_alternative<ForwardModel>(decoder.model) || std::holds_alternative<KernelForwardModel>(decoder.model);
-  if (!inverts || !calibrated(decoder)) return Eigen::VectorXd::Zero(decoder.outputs());
+  const bool apart = std::holds_alternative<ForwardModel>(decoder.model) || keepsCorrection(decoder);
+  if (!apart || !calibrated(decoder)) return Eigen::VectorXd::Zero(decoder.outputs());
   return decoder.residual_N.col(0);
 }
 

@@ -13,9 +13,9 @@ std::string withCalibrationMark(const std::string& trainedWith, Eigen::Index fra
 Eigen::Index calibrationFrames(const Decoder& decoder);
 /// Whether labelled frames of a board have refined it.
 bool calibrated(const Decoder& decoder);
-/// What a calibration left of each force of a decoder by inversion (rms on frames that it had not seen), which its
-/// deviations hold with noise and model; those of other decoders hold it in the error of their training. Zero where it
-/// was not calibrated.
+/// What a calibration left of each force of a decoder by inversion or of measured rows (rms on frames that it had not
+/// seen), which its deviations hold together with noise and model; those of other decoders hold it in the error of
+/// their training. Zero where it was not calibrated.
 Eigen::VectorXd calibrationError_N(const Decoder& decoder);
 
 } // namespace palp

@@ -4,6 +4,7 @@
 #include "app/study/decoding/KnownTouches.h"
 #include "app/study/decoding/Prediction.h"
 #include "app/study/decoding/TwoStep.h"
+#include "app/study/decoding/measured/GroupedErrors.h"
 #include "app/study/decoding/measured/MeasuredWords.h"
 #include "model/base/Cancelled.h"
 #include "model/base/Error.h"
@@ -49,7 +50,8 @@ public:
   /// All arguments outlive the training.
   DecoderTraining(const SampleSet& samples, const SensorDesign* design, const TrainOptions& options,
                   const std::stop_token& stop, const std::function<void(double, const std::string&)>& progress);
-  Decoder run();
+  /// `validates`: of measured rows, the errors are those of rows that depend on each other left out together.
+  Decoder run(bool validates = true);
 
 private:
   void describe();
@@ -63,6 +65,7 @@ private:
   void fitTwoStep(bool gaussNewton);
   void fitLikelihood();
   void fitTouches();
+  void validateGroups();
   void recordResiduals(const Eigen::MatrixXd& ofTargets, const Eigen::VectorXi& areas);
   void fitAreas();
   [[nodiscard]] ForwardModel forwardModel();
@@ -83,13 +86,14 @@ DecoderTraining::DecoderTraining(const SampleSet& samples, const SensorDesign* d
                                  const std::function<void(double, const std::string&)>& progress)
     : samples_(samples), design_(design), options_(options), stop_(stop), progress_(progress) {}
 
-Decoder DecoderTraining::run() {
+Decoder DecoderTraining::run(bool validates) {
   if (samples_.size() == 0) throw Error("samples: " + gotExpected("0", "1 or more"));
   const auto start = std::chrono::steady_clock::now();
   describe();
   say(0, "fitting " + name(options_.decoder));
   fit();
   if (stop_.stop_requested()) throw Cancelled();
+  if (validates && samples_.origin.imported() && !samples_.together() && !decoder_.measured) validateGroups();
   say(0.9, "learning the areas");
   fitAreas();
   if (std::string constant = constantInputs(decoder_.input, inputs_); !constant.empty())
@@ -165,9 +169,7 @@ void DecoderTraining::fit() {
 }
 
 void DecoderTraining::fitAsMeasured() {
-  MeasuredRows rows{inputs_.transpose(), targets_.transpose(), {}, Eigen::VectorXi::Zero(samples_.size())};
-  if (samples_.times_s.rows() > 0) rows.times_s = samples_.times_s.row(0).transpose();
-  if (samples_.runs.rows() > 0) rows.runs = samples_.runs.row(0).transpose().cast<int>();
+  const MeasuredRows rows = measuredRows(samples_, inputs_, targets_);
   MeasuredOptions options;
   options.order = options_.order;
   options.transform = options_.transform;
@@ -323,6 +325,27 @@ void DecoderTraining::fitAreas() {
   const Eigen::VectorXi& area = samples_.area;
   if (area.minCoeff() == area.maxCoeff()) return; // one area only: nothing to distinguish
   decoder_.areas = forwardModel();
+}
+
+/// The same decoder, with spread and ridge as chosen, without the rows of each fold.
+void DecoderTraining::validateGroups() {
+  say(0.8, "validating");
+  TrainOptions same = options_;
+  if (options_.decoder == DecoderKind::Rbf) {
+    same.spread = decoder_.report.spread;
+    same.ridge = decoder_.report.ridge;
+  }
+  const auto train = [&](const SampleSet& part) { return DecoderTraining(part, design_, same, stop_, {}).run(false); };
+  try {
+    const GroupedErrors found =
+        groupedErrors(samples_, measuredRows(samples_, inputs_, targets_), options_.order, train, stop_);
+    recordResiduals(found.errors, samples_.area);
+    decoder_.report.leftOut = leftOutInWords(found.dependence, static_cast<std::size_t>(samples_.size()));
+  } catch (const Error& failed) {
+    decoder_.report.warnings.push_back(std::string("the error is of single rows left out, as without a part of the "
+                                                   "rows no decoder can be trained: ") +
+                                       failed.what());
+  }
 }
 
 /// Root mean square of each area's residuals; of all of them where an area has none.

@@ -64,7 +64,7 @@ Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input
     shifted(d, 2 * d) += step(d);
     shifted(d, 2 * d + 1) -= step(d);
   }
-  const Eigen::MatrixXd forces = forcesOf(decoder, heldInputs(decoder, shifted));
+  const Eigen::MatrixXd forces = forcesOf(decoder, shifted);
   Eigen::MatrixXd slope(forces.rows(), n);
   for (Eigen::Index d = 0; d < n; ++d)
     slope.col(d) = step(d) > 0 ? Eigen::VectorXd((forces.col(2 * d) - forces.col(2 * d + 1)) / (2 * step(d)))
@@ -77,8 +77,11 @@ Eigen::MatrixXd differences(const Decoder& decoder, const Eigen::VectorXd& input
 Eigen::MatrixXd slopeAt(const Decoder& decoder, const Eigen::VectorXd& input) {
   return std::visit(
       [&](const auto& model) -> Eigen::MatrixXd {
-        if constexpr (requires { model.jacobian(input); })
+        if constexpr (requires { model.jacobian(input); }) {
           if (!decoder.measured) return model.jacobian(input);
+          const InputStage& stage = decoder.measured->stage;
+          return model.jacobian(stage.held(input).col(0)) * stage.slope(input);
+        }
         return differences(decoder, input);
       },
       decoder.model);
@@ -178,7 +181,7 @@ void addDeviations(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
     result.standardDeviation_N = decoder.measured->deviation.at(result.forces_N);
   } else if (!setOwnDeviation(decoder, inputs, result)) {
     const Eigen::VectorXd all = decoder.residual_N.rowwise().squaredNorm() / decoder.residual_N.cols();
-    result.standardDeviation_N.resize(decoder.outputs() + (decoder.place ? 2 : 0), inputs.cols());
+    result.standardDeviation_N.resize(decoder.answers(), inputs.cols());
     if (decoder.place) result.standardDeviation_N.bottomRows<2>().colwise() = decoder.place->residual_mm;
     for (Eigen::Index i = 0; i < inputs.cols(); ++i)
       result.standardDeviation_N.col(i).head(decoder.outputs()) =
@@ -254,13 +257,13 @@ void widen(const Eigen::VectorXd& error, Eigen::MatrixXd& deviation) {
 } // namespace
 
 void finish(const Decoder& decoder, Prediction& result) {
-  if (decoder.correction) correct(*decoder.correction, result);
+  if (decoder.correction) correct(*decoder.correction, result); // after limits: it leaves the range where a board does
   if (decoder.place) {
     splitPlace(result.forces_N, result.places_mm);
     splitPlace(result.standardDeviation_N, result.placeDeviation_mm);
   }
   widen(calibrationError_N(decoder), result.standardDeviation_N);
-  const bool placesCalibrated = decoder.correction && !decoder.correction->offset.tail<2>().isZero(0);
+  const bool placesCalibrated = decoder.place && decoder.correction && !decoder.correction->offset.tail<2>().isZero(0);
   if (placesCalibrated) widen(decoder.place->residual_mm, result.placeDeviation_mm);
 }
 
@@ -377,7 +380,11 @@ Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixX
 }
 
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options) {
-  const Eigen::MatrixXd inputs = inputsOf(samples, decoder.input);
+  return predict(decoder, samples, inputsOf(samples, decoder.input), options);
+}
+
+Prediction predict(const Decoder& decoder, const SampleSet& samples, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options) {
   Prediction result = Predictor(decoder, options)(inputs, stagedInputs(decoder, samples, inputs));
   for (std::string& warning : otherSamples(decoder, samples)) result.warnings.push_back(std::move(warning));
   if (std::string warning = decoder.measured ? outsideWarning(result.outsideTrainingRange) : ""; !warning.empty())
@@ -392,9 +399,10 @@ Eigen::MatrixXd stagedInputs(const Decoder& decoder, const SampleSet& samples, c
     throw Error("readings: " +
                 gotExpected(inputs.minCoeff(), "",
                             "above 0, as the network takes their " + kReadingTransforms.name(stage.transform)));
-  if (stage.hasMemory() && samples.times_s.rows() == 0 && samples.size() > 1)
+  const bool byTime = stage.hasMemory() && !stage.rowsAreClock;
+  if (byTime && samples.times_s.rows() == 0 && samples.size() > 1)
     throw Error("the network has a memory and needs the time of each sample; the samples have no time");
-  for (Eigen::Index i = 1; stage.hasMemory() && i < samples.size(); ++i)
+  for (Eigen::Index i = 1; byTime && i < samples.size(); ++i)
     if (samples.times_s(0, i) < samples.times_s(0, i - 1) &&
         (samples.runs.rows() == 0 || samples.runs(0, i) == samples.runs(0, i - 1)))
       throw Error("samples: row " + std::to_string(i) +

@@ -74,8 +74,12 @@ private:
 /// differs.
 Prediction predict(const Decoder& decoder, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
                    const PredictOptions& options = {});
-/// The same from a set; the result has a warning if the set belongs to another design.
+/// The same from a set, with its times and runs for a memory; the result has a warning if the set belongs to another
+/// design.
 Prediction predict(const Decoder& decoder, const SampleSet& samples, const PredictOptions& options = {});
+/// The same from these inputs of the set (inputs x samples), as where noise was added to them.
+Prediction predict(const Decoder& decoder, const SampleSet& samples, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
+                   const PredictOptions& options);
 
 /// Returns how the samples differ from those the decoder was trained for (another design, touches instead of forces on
 /// complete areas), one sentence each; empty if they do not.

@@ -156,7 +156,8 @@ Prediction ForceDecoder::predicted(double time_s, const Eigen::VectorXd& reading
   if (readings.missing.empty() && memory_) {
     const InputStage& stage = decoder_->measured->stage;
     Eigen::MatrixXd staged = stage.held(readings_ohm);
-    const Eigen::VectorXd& differences = memory_->next(time_s, stage.rememberedOf(staged.topRows(readings_ohm.size())));
+    const double clock = stage.rowsAreClock ? static_cast<double>(memoryFrames_++) : time_s;
+    const Eigen::VectorXd& differences = memory_->next(clock, stage.rememberedOf(staged.topRows(readings_ohm.size())));
     staged.bottomRows(differences.size()) = differences;
     return (*predictor_)(readings_ohm, staged);
   }

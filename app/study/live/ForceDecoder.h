@@ -7,6 +7,7 @@
 #include "io/board/Tare.h"
 #include "model/SensorDesign.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,6 +106,7 @@ private:
   PredictOptions predictorOptions_;
   std::unique_ptr<PartialPredictor> fewer_; ///< the same for missing readings; made when first needed
   std::optional<MemoryStates> memory_;      ///< if the decoder has a memory
+  std::uint64_t memoryFrames_ = 0;          ///< that it has seen, its clock where rows are the clock
   Eigen::Matrix3Xd restError_N_;            ///< prediction for the design at rest, where the true force is zero
   Eigen::Array<bool, 3, Eigen::Dynamic> measured_;
   Eigen::Matrix3Xd calibrationError_N_;

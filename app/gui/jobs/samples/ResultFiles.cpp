@@ -63,8 +63,8 @@ void tryOn(NetworkFit& fit, const NetworkSamples& samples, const std::stop_token
   plain.standardDeviation = plain.area = false;
   const Eigen::MatrixXd clean = inputsOf(samples.test, fit.decoder.input);
   // Of another seed than the training's noise: a network must not meet in the test what it was fitted to.
-  fit.prediction =
-      predict(fit.decoder, noisyCopies(clean, fit.settings.testNoise, 1, testSeed(fit.settings.seed), stop), plain);
+  fit.prediction = predict(fit.decoder, samples.test,
+                           noisyCopies(clean, fit.settings.testNoise, 1, testSeed(fit.settings.seed), stop), plain);
   fit.error = decoderError(fit.decoder, fit.prediction, samples.test);
 }
 
@@ -215,7 +215,8 @@ void openSamples(const fs::path& folder, const SensorDesign& design, OpenedResul
   if (opened.results.samples || !fs::exists(test)) return;
   try {
     opened.results.samples = std::make_shared<const NetworkSamples>(openTheseSampleFiles({file}, design, stop));
-    opened.problems.back() += "; every fifth sample of " + file.filename().string() +
+    opened.problems.back() += "; " + heldOutWords(opened.results.samples->training).toStdString() + " of " +
+                              file.filename().string() +
                               " is used for testing, although the earlier networks were trained with it";
   } catch (const Error&) { // reported already: it is read first
   }

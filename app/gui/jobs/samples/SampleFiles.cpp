@@ -2,6 +2,7 @@
 
 #include "app/gui/jobs/NetworkSession.h"
 #include "app/gui/project/FileKind.h"
+#include "app/study/decoding/measured/SampleSplit.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/DesignFile.h"
 #include "io/FilesTogether.h"
@@ -46,8 +47,12 @@ SampleSet joined(Shards shards) {
   return all;
 }
 
-/// Every fifth sample of each area goes to the second set.
+/// Every fifth sample of each area goes to the second set; of measured ones, whose neighbours are alike, the last.
 std::array<SampleSet, 2> heldOut(const SampleSet& all) {
+  if (all.origin.imported()) {
+    SplitSamples parts = split(all, laterRows(all));
+    return {std::move(parts.training), std::move(parts.test)};
+  }
   std::array<std::vector<Eigen::Index>, 2> chosen;
   std::vector<int> met(static_cast<std::size_t>(all.areaCount), 0);
   for (Eigen::Index s = 0; s < all.size(); ++s) {
@@ -67,6 +72,10 @@ void requireOf(const SensorDesign& design, const SampleSet& set, const fs::path&
 }
 
 } // namespace
+
+QString heldOutWords(const SampleSet& training) {
+  return training.origin.imported() ? QObject::tr("the last fifth of the samples") : QObject::tr("every fifth sample");
+}
 
 fs::path testFileOf(const fs::path& file) {
   return file.parent_path() / (file.stem().string() + "-test" + file.extension().string());

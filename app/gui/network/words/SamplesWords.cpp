@@ -70,9 +70,10 @@ QString openedWords(const NetworkSamples& samples, const QString& file) {
   if (!samples.split) return words;
   const std::filesystem::path beside = testFileOf(samples.file.toStdString());
   const QString test = QString::fromStdString(beside.filename().string());
+  const QString heldOut = heldOutWords(samples.training);
   words += std::filesystem::exists(beside)
-               ? QObject::tr("; every fifth sample is used for testing, %1 could not be used").arg(test)
-               : QObject::tr("; every fifth sample is used for testing, as there is no %1").arg(test);
+               ? QObject::tr("; %1 is used for testing, %2 could not be used").arg(heldOut, test)
+               : QObject::tr("; %1 is used for testing, as there is no %2").arg(heldOut, test);
   return words;
 }
 

@@ -30,8 +30,9 @@ std::string errorsText(const Decoder& decoder, const Eigen::VectorXd& errors) {
   return text;
 }
 
-std::string leftOut(const MeasuredTraining& measured, std::size_t samples) {
-  const RowDependence& found = measured.dependence;
+} // namespace
+
+std::string leftOutInWords(const RowDependence& found, std::size_t samples) {
   const std::string correlation = withDigits(found.correlation, 2);
   if (found.order == RowOrder::Runs) return "complete runs are left out in turn";
   if (found.order == RowOrder::Time)
@@ -45,6 +46,8 @@ std::string leftOut(const MeasuredTraining& measured, std::size_t samples) {
          "): rows are left out at random";
 }
 
+namespace {
+
 std::string taken(const Decoder& decoder) {
   const MeasuredTraining& measured = *decoder.measured;
   std::string text = decoder.report.centers > 0 ? std::to_string(decoder.report.centers) + " Gaussians of spread " +
@@ -57,7 +60,7 @@ std::string taken(const Decoder& decoder) {
   text += ", memory of ";
   for (std::size_t i = 0; i < measured.stage.times_s.size(); ++i)
     text += (i == 0 ? "" : ", ") + withDigits(measured.stage.times_s[i], 2);
-  return text + " s";
+  return text + (measured.stage.rowsAreClock ? " rows" : " s");
 }
 
 } // namespace
@@ -65,7 +68,7 @@ std::string taken(const Decoder& decoder) {
 std::vector<std::string> measuredSentences(const Decoder& decoder, std::size_t samples, bool hasClock) {
   if (!decoder.measured) return {};
   const MeasuredTraining& measured = *decoder.measured;
-  std::vector<std::string> all{leftOut(measured, samples), "taken: " + taken(decoder)};
+  std::vector<std::string> all{leftOutInWords(measured.dependence, samples), "taken: " + taken(decoder)};
   std::string error = "error on later rows: " + errorsText(decoder, measured.stated);
   if (measured.stated.norm() > kClearlyMore * measured.singleRows.norm())
     error += "; single rows left out would have stated " + errorsText(decoder, measured.singleRows) +
@@ -78,6 +81,24 @@ std::vector<std::string> measuredSentences(const Decoder& decoder, std::size_t s
     all.emplace_back(
         "without a column of time no memory was tried; --clock rows if the rows are equally spaced in time");
   return all;
+}
+
+std::string keptBackInWords(const Decoder& decoder, const Prediction& prediction, const SampleSet& kept) {
+  Eigen::MatrixXd errors(decoder.answers(), kept.size()), deviations(decoder.answers(), kept.size());
+  errors << prediction.forces_N - kept.forces_N,
+      decoder.place ? Eigen::MatrixXd(prediction.places_mm - kept.touchedPlaces_mm()) : Eigen::MatrixXd(0, kept.size());
+  deviations << prediction.standardDeviation_N,
+      decoder.place ? prediction.placeDeviation_mm : Eigen::MatrixXd(0, kept.size());
+  std::string text = "error on the " + std::to_string(kept.size()) +
+                     " samples kept back: " + errorsText(decoder, errors.array().square().rowwise().mean().sqrt());
+  double within = 0, counted = 0;
+  for (Eigen::Index i = 0; i < errors.rows(); ++i) {
+    if (i < decoder.outputs() && !(decoder.high_N(i) > decoder.low_N(i))) continue; // not measured
+    within += (errors.row(i).array().abs() <= deviations.row(i).array()).cast<double>().mean();
+    ++counted;
+  }
+  within /= counted;
+  return text + "; " + withDigits(100 * within, 2) + " % of the errors within one stated deviation (68 expected)";
 }
 
 std::vector<std::string> measuredWarnings(const Decoder& decoder) {
