@@ -175,7 +175,9 @@ void addMaterial(Cli& cli) {
   Command command = cli.command("material", "Fits laws of rubber to tests of a specimen.",
                                 "palp material fit tension.csv --equibiaxial bulge.csv",
                                 [arguments](Session& session) { return fit(*arguments, session); });
-  command.option("action", arguments->action, "TEXT", "fit: finds the constants of laws from tests").required().oneOf({"fit"});
+  command.option("action", arguments->action, "TEXT", "fit: finds the constants of laws from tests")
+      .required()
+      .oneOf({"fit"});
   command.option("test", arguments->tests, "FILE",
                  "CSV of a test: stretch, strain or strain_percent; stress_MPa, stress_kPa or stress_Pa (nominal); if "
                  "wanted mode (default uniaxial) and weight");
