@@ -67,6 +67,27 @@ std::string resistance(const SensorDesign& design) {
          R"(, "pressure_law": )" + pressureLaw(design.pressureLaw) + " }";
 }
 
+std::string numbersOf(const MooneyRivlin& law) {
+  return "\"c10_MPa\": " + text(law.c10_MPa) + ", \"c01_MPa\": " + text(law.c01_MPa);
+}
+
+std::string numbersOf(const NeoHooke& law) {
+  return "\"law\": \"neo-hooke\", \"c10_MPa\": " + text(law.c10_MPa);
+}
+
+std::string numbersOf(const Yeoh& law) {
+  return "\"law\": \"yeoh\", \"c10_MPa\": " + text(law.c10_MPa) + ", \"c20_MPa\": " + text(law.c20_MPa) +
+         ", \"c30_MPa\": " + text(law.c30_MPa);
+}
+
+std::string numbersOf(const Gent& law) {
+  return "\"law\": \"gent\", \"mu_MPa\": " + text(law.mu_MPa) + ", \"jm\": " + text(law.jm);
+}
+
+std::string numbersOf(const Ogden& law) {
+  return "\"law\": \"ogden\", \"mu_MPa\": " + list(law.mu_MPa) + ", \"alpha\": " + list(law.alpha);
+}
+
 std::string range(const ForceRange& forces, int axis) {
   return list(std::vector<double>{forces.low_N(axis), forces.high_N(axis)});
 }
@@ -97,10 +118,39 @@ Eigen::Vector3d readVector3(const JsonPlace& place) {
   return {v[0], v[1], v[2]};
 }
 
+RubberLaw readRubberLaw(const JsonPlace& place, RubberLawKind kind) {
+  // "law" may be left out for Mooney-Rivlin alone, as files had no other law once.
+  const auto only = [&](std::vector<std::string> keys) {
+    keys.insert(keys.end(), {"poisson_ratio", "density_t_per_mm3"});
+    if (kind == RubberLawKind::MooneyRivlin)
+      place.onlyKeys(keys, {"law"});
+    else
+      place.onlyKeys((keys.emplace_back("law"), keys));
+  };
+  const auto number = [&](const char* key) { return place.at(key).number(); };
+  switch (kind) {
+  case RubberLawKind::MooneyRivlin:
+    only({"c10_MPa", "c01_MPa"});
+    return MooneyRivlin{number("c10_MPa"), number("c01_MPa")};
+  case RubberLawKind::NeoHooke:
+    only({"c10_MPa"});
+    return NeoHooke{number("c10_MPa")};
+  case RubberLawKind::Yeoh:
+    only({"c10_MPa", "c20_MPa", "c30_MPa"});
+    return Yeoh{number("c10_MPa"), number("c20_MPa"), number("c30_MPa")};
+  case RubberLawKind::Gent:
+    only({"mu_MPa", "jm"});
+    return Gent{number("mu_MPa"), number("jm")};
+  case RubberLawKind::Ogden:
+    only({"mu_MPa", "alpha"});
+    return Ogden{place.at("mu_MPa").numbers(), place.at("alpha").numbers()};
+  }
+  return {};
+}
+
 Material readMaterial(const JsonPlace& place) {
-  place.onlyKeys({"c10_MPa", "c01_MPa", "poisson_ratio", "density_t_per_mm3"});
-  return {place.at("c10_MPa").number(), place.at("c01_MPa").number(), place.at("poisson_ratio").number(),
-          place.at("density_t_per_mm3").number()};
+  const RubberLawKind kind = place.has("law") ? place.at("law").named(kRubberLaws) : RubberLawKind::MooneyRivlin;
+  return {readRubberLaw(place, kind), place.at("poisson_ratio").number(), place.at("density_t_per_mm3").number()};
 }
 
 std::optional<PressureLaw> readPressureLaw(const JsonPlace& place) {
@@ -157,13 +207,16 @@ SensorDesign readDesign(const JsonPlace& root) {
   return design;
 }
 
+std::string materialJson(const Material& material) {
+  return "{ " + std::visit([](const auto& law) { return numbersOf(law); }, material.law) +
+         ", \"poisson_ratio\": " + text(material.poissonRatio) +
+         ", \"density_t_per_mm3\": " + text(material.density_t_per_mm3) + " }";
+}
+
 std::string toJson(const SensorDesign& d) {
-  const Material& m = d.material;
   std::string json = "{ \"palp_design\": 1,\n";
   json += "  \"block_mm\": " + list(d.block_mm) + ",\n";
-  json += "  \"material\": { \"c10_MPa\": " + text(m.c10_MPa) + ", \"c01_MPa\": " + text(m.c01_MPa) +
-          ", \"poisson_ratio\": " + text(m.poissonRatio) + ", \"density_t_per_mm3\": " + text(m.density_t_per_mm3) +
-          " },\n";
+  json += "  \"material\": " + materialJson(d.material) + ",\n";
   json += "  \"areas\": { \"columns\": " + std::to_string(d.areas.columns) +
           ", \"rows\": " + std::to_string(d.areas.rows) + " },\n";
   json += "  \"upper_layer\": { \"z_mm\": " + depths(d.upper.z_mm) +

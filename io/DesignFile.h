@@ -14,6 +14,9 @@ class JsonPlace;
 /// short form (one for all wires) if the design has it (resources/docs/formats.md).
 std::string toJson(const SensorDesign& design);
 
+/// The design's "material" as one line of JSON.
+std::string materialJson(const Material& material);
+
 /// Reads the text of a design file strictly: an unknown key, a missing one, a wrong type or a newer version throws
 /// Error with the file's name, the key, the value and what is allowed. Whether the design can be built is for check()
 /// to say.

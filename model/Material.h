@@ -1,16 +1,18 @@
 #pragma once
 
+#include "model/RubberLaw.h"
+
 namespace palp {
 
-/// Mooney-Rivlin rubber, W = c10 (I1bar - 3) + c01 (I2bar - 3) + (1/d) (J - 1)^2, d = (1 - 2 nu) / (c10 + c01) as in
-/// ANSYS. The defaults are the paper's (section 3).
+/// Rubber: the isochoric energy of its law and, for every law, (1/d) (J - 1)^2 with d = 2 / kappa and
+/// kappa = mu / (1 - 2 nu), mu the shear modulus at rest; for Mooney-Rivlin d = (1 - 2 nu) / (c10 + c01), as in ANSYS.
+/// The defaults are the paper's (section 3).
 struct Material {
-  double c10_MPa = 0.3286;
-  double c01_MPa = 0.08215;
+  RubberLaw law;
   double poissonRatio = 0.499; ///< as entered, in ANSYS's sense; 0.5 is incompressible
   double density_t_per_mm3 = 1e-9;
 
-  /// mu = 2 (c10 + c01) [MPa].
+  /// mu, the shear modulus at rest [MPa].
   [[nodiscard]] double shearModulus_MPa() const;
   /// kappa = 2/d = mu / (1 - 2 nu) [MPa]; infinite for nu = 0.5.
   [[nodiscard]] double bulkModulus_MPa() const;

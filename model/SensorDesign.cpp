@@ -1,6 +1,7 @@
 #include "model/SensorDesign.h"
 
 #include "model/DesignError.h"
+#include "model/MaterialCheck.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "model/field/FieldLawCheck.h"
@@ -36,23 +37,6 @@ void requireBetween(Problems& problems, const std::string& key, double value, do
 void requireNotNegative(Problems& problems, const std::string& key, double value, double largest, const char* unit) {
   if (value >= 0 && value <= largest) return; // false for NaN
   problems.push_back({key, gotExpected(value, unit, "0 up to " + shortText(largest) + unit)});
-}
-
-void checkMaterial(Problems& problems, const Material& material) {
-  const double c10 = material.c10_MPa;
-  const double c01 = material.c01_MPa;
-  const std::size_t before = problems.size();
-  for (const auto& [key, value] : {std::pair{"material.c10_MPa", c10}, std::pair{"material.c01_MPa", c01}})
-    if (!(std::abs(value) <= kLargestModulus_MPa))
-      problems.push_back({key, gotExpected(value, " MPa", "-1e+09 to 1e+09 MPa")});
-  const bool numbers = problems.size() == before;
-  if (numbers && !(c10 > 0)) problems.push_back({"material.c10_MPa", gotExpected(c10, " MPa", "above 0")});
-  if (numbers && !(c10 + c01 > 0))
-    problems.push_back(
-        {"material.c01_MPa", gotExpected(c01, " MPa", "c10 + c01 above 0, or the rubber has no stiffness")});
-  if (!(material.poissonRatio >= 0 && material.poissonRatio <= 0.5))
-    problems.push_back({"material.poisson_ratio", gotExpected(material.poissonRatio, "", "0 to 0.5")});
-  requirePositive(problems, "material.density_t_per_mm3", material.density_t_per_mm3, 1, " t/mm3");
 }
 
 void checkAreas(Problems& problems, const LoadAreas& areas) {
@@ -273,7 +257,8 @@ std::vector<DesignFault> check(const SensorDesign& design) {
     requirePositive(problems, "block_mm[" + std::to_string(axis) + "]", design.block_mm(axis), kLargestLength_mm,
                     " mm");
   const bool block = problems.empty();
-  checkMaterial(problems, design.material);
+  const Problems ofMaterial = check(design.material);
+  problems.insert(problems.end(), ofMaterial.begin(), ofMaterial.end());
   checkAreas(problems, design.areas);
   const std::size_t before = problems.size();
   checkElectrodes(problems, design);

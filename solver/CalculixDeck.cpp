@@ -2,6 +2,7 @@
 
 #include "model/DesignError.h"
 #include "model/base/Cancelled.h"
+#include "model/base/GotExpected.h"
 #include "solver/assembly/Discretisation.h"
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/contact/ContactDeck.h"
@@ -27,6 +28,50 @@ void writeNodeSet(const std::string& name, const std::vector<int>& nodes, std::s
   for (int n : nodes) deck += std::to_string(n + 1) + ",\n";
 }
 
+/// A law as CalculiX and Abaqus have it: its name on the keyword line, its constants, and how many powers of (J - 1)^2
+/// its volumetric energy has.
+struct DeckLaw {
+  std::string name;
+  std::vector<double> constants;
+  int volumeTerms = 1;
+};
+
+DeckLaw deckLaw(const MooneyRivlin& law) {
+  return {"MOONEY-RIVLIN", {law.c10_MPa, law.c01_MPa}};
+}
+DeckLaw deckLaw(const NeoHooke& law) {
+  return {"NEO HOOKE", {law.c10_MPa}};
+}
+DeckLaw deckLaw(const Yeoh& law) {
+  return {"YEOH", {law.c10_MPa, law.c20_MPa, law.c30_MPa}, 3};
+}
+DeckLaw deckLaw(const Gent& /*law*/) {
+  throw DesignError("material.law: CalculiX and Abaqus do not have this law: " +
+                    gotExpected(kRubberLaws.name(RubberLawKind::Gent), "mooney-rivlin, neo-hooke, yeoh or ogden"));
+}
+DeckLaw deckLaw(const Ogden& law) {
+  const int terms = static_cast<int>(law.alpha.size());
+  DeckLaw deck{"OGDEN, N=" + std::to_string(terms), {}, terms};
+  for (std::size_t k = 0; k < law.alpha.size(); ++k) {
+    deck.constants.push_back(law.mu_MPa[k]);
+    deck.constants.push_back(law.alpha[k]);
+  }
+  return deck;
+}
+
+/// The keyword with its data lines of at most 8 numbers: the constants, then D = 2 / kappa of (1/D) (J - 1)^2, then a D
+/// for each higher power that makes it vanish, as CalculiX replaces 0 by a value of its own.
+std::string hyperelastic(const Material& material) {
+  constexpr double vanishing = 1e9;
+  DeckLaw law = std::visit([](const auto& of) { return deckLaw(of); }, material.law);
+  law.constants.push_back(2 * material.compressibility_per_MPa());
+  law.constants.insert(law.constants.end(), static_cast<std::size_t>(law.volumeTerms - 1), vanishing);
+  std::string lines = "*HYPERELASTIC, " + law.name;
+  for (std::size_t k = 0; k < law.constants.size(); ++k)
+    lines += (k % 8 == 0 ? "\n" : ", ") + deckNumber(law.constants[k]);
+  return lines;
+}
+
 } // namespace
 
 std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const LoadCase& load,
@@ -34,6 +79,7 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
   const Material& m = design.material;
   if (m.compressibility_per_MPa() <= 0)
     throw DesignError("material.poisson_ratio 0.5: a displacement element's deck needs a value below 0.5");
+  const std::string law = hyperelastic(m); // throws before the long work
   const Eigen::VectorXd forces = nodalForces(mesh, design, load);
   std::string deck = "*HEADING\nBlock of a tactile sensor [mm, N, MPa]\n*NODE, NSET=ALL\n";
   for (int n = 0; n < mesh.nodeCount(); ++n) {
@@ -48,10 +94,8 @@ std::string calculixDeck(const SensorDesign& design, const Mesh& mesh, const Loa
     if (fixed[3 * static_cast<std::size_t>(n)]) bottom.push_back(n);
   writeNodeSet("BOTTOM", bottom, deck);
   if (!mesh.upperElectrodeNodes.empty()) writeNodeSet("UPPER_ELECTRODES", mesh.upperElectrodeNodes, deck);
-  // d = 2 / kappa: W = ... + (1/d) (J - 1)^2.
-  deck += "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n" + deckNumber(m.c10_MPa) + ", " +
-          deckNumber(m.c01_MPa) + ", " + deckNumber(2 * m.compressibility_per_MPa()) + "\n*DENSITY\n" +
-          deckNumber(m.density_t_per_mm3) + "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n";
+  deck += "*MATERIAL, NAME=RUBBER\n" + law + "\n*DENSITY\n" + deckNumber(m.density_t_per_mm3) +
+          "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n";
   const std::string clamps = "BOTTOM, 1, 3\n";
   std::string loads;
   for (int n = 0; n < mesh.nodeCount(); ++n)

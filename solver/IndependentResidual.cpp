@@ -2,7 +2,7 @@
 
 #include "solver/assembly/SurfaceTraction.h"
 #include "solver/element/ElementGeometry.h"
-#include "solver/element/MooneyRivlin.h"
+#include "solver/element/RubberStress.h"
 
 #include <Eigen/Dense>
 

@@ -58,6 +58,7 @@ private:
 };
 
 void addDesign(Cli& cli);
+void addMaterial(Cli& cli);
 void addMesh(Cli& cli);
 void addSolve(Cli& cli);
 void addRender(Cli& cli);

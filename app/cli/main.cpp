@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   try {
     palp::Cli cli;
     palp::addDesign(cli);
+    palp::addMaterial(cli);
     palp::addMesh(cli);
     palp::addSolve(cli);
     palp::addRender(cli);

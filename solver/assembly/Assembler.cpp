@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <mutex>
 
@@ -14,18 +15,49 @@ namespace {
 constexpr int blocksAChunk = 8;
 constexpr int nodesAChunk = 256;
 
+void setLaw(RubberConstants& rubber, const MooneyRivlin& law) {
+  rubber.law = KernelLaw::MooneyRivlin;
+  rubber.constants[0] = law.c10_MPa;
+  rubber.constants[1] = law.c01_MPa;
+}
+void setLaw(RubberConstants& rubber, const NeoHooke& law) {
+  setLaw(rubber, MooneyRivlin{law.c10_MPa, 0});
+}
+void setLaw(RubberConstants& rubber, const Yeoh& law) {
+  rubber.law = KernelLaw::Yeoh;
+  rubber.constants[0] = law.c10_MPa;
+  rubber.constants[1] = law.c20_MPa;
+  rubber.constants[2] = law.c30_MPa;
+}
+void setLaw(RubberConstants& rubber, const Gent& law) {
+  rubber.law = KernelLaw::Gent;
+  rubber.constants[0] = law.mu_MPa;
+  rubber.constants[1] = law.jm;
+}
+void setLaw(RubberConstants& rubber, const Ogden& law) {
+  assert(law.alpha.size() <= std::size_t(ogdenTerms) && law.mu_MPa.size() == law.alpha.size() && "a checked design");
+  rubber.law = KernelLaw::Ogden;
+  for (std::size_t k = 0; k < law.alpha.size(); ++k) {
+    rubber.constants[2 * k] = law.mu_MPa[k];
+    rubber.constants[2 * k + 1] = law.alpha[k];
+  }
+}
+
 } // namespace
 
 RubberConstants rubberConstants(const Material& material) {
-  const double compressibility = material.compressibility_per_MPa();
-  return {material.c10_MPa, material.c01_MPa, compressibility,
-          std::max(compressibility, 1e-6 / material.shearModulus_MPa())};
+  RubberConstants rubber{};
+  std::visit([&](const auto& law) { setLaw(rubber, law); }, material.law);
+  rubber.shearModulus_MPa = material.shearModulus_MPa();
+  rubber.compressibility_per_MPa = material.compressibility_per_MPa();
+  rubber.tangentCompressibility_per_MPa = std::max(rubber.compressibility_per_MPa, 1e-6 / rubber.shearModulus_MPa);
+  return rubber;
 }
 
 Assembler::Assembler(std::shared_ptr<const Discretisation> mesh, const RubberConstants& rubber)
     : mesh_(std::move(mesh)), rubber_(rubber) {
-  const double mu = 2 * (rubber.c10_MPa + rubber.c01_MPa);
-  for (int e = 0; e < mesh_->elements(); ++e) volumeForce_.push_back(mu / std::cbrt(mesh_->volume(e)));
+  for (int e = 0; e < mesh_->elements(); ++e)
+    volumeForce_.push_back(rubber.shearModulus_MPa / std::cbrt(mesh_->volume(e)));
   findNeighbours();
   findPattern();
 }
@@ -125,7 +157,7 @@ void Assembler::tangent(const ElementState& state, ElementTangents& tangents, El
     LaneVector stiffness(entries * lanes);
     mesh_->gather(b, state.displacements, u);
     double* elimination = tangents.elimination.data() + b * x * d * lanes;
-    mesh_->kernels().tangent(
+    mesh_->kernels().of(rubber_).tangent(
         rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out,
         {stiffness.data(), elimination, tangents.localInverse.data() + b * x * (x + 1) / 2 * lanes});
     std::copy_n(out.forces, d * lanes, forces.raw.data() + b * d * lanes);
@@ -142,7 +174,7 @@ void Assembler::residual(const ElementState& state, const ElementTangents& tange
   const std::size_t d = mesh_->elementDofs(), x = mesh_->unknowns();
   overBlocks(forces, threads, {}, [&](int b, double* u, const ElementResidual& out) {
     mesh_->gather(b, state.displacements, u);
-    mesh_->kernels().residual(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out);
+    mesh_->kernels().of(rubber_).residual(rubber_, {mesh_->geometry(b), u, state.unknowns.data() + b * x * lanes}, out);
     std::copy_n(out.forces, d * lanes, forces.raw.data() + b * d * lanes);
     mesh_->kernels().condense(tangents.elimination.data() + b * x * d * lanes, out.local, out.forces);
   });

@@ -3,7 +3,7 @@
 #include "model/base/PositiveSolve.h"
 #include "solver/element/ElementGeometry.h"
 #include "solver/element/ElementKernels.h"
-#include "solver/element/MooneyRivlin.h"
+#include "solver/element/RubberStress.h"
 
 #include <Eigen/Dense>
 

@@ -168,6 +168,7 @@ void LoadBatch::addPolynomials(int block, const std::vector<double>& displacemen
 void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const std::stop_token& stop) {
   const Discretisation& mesh = model_.mesh();
   const ElementKernels& kernels = mesh.kernels();
+  const LawKernels& law = kernels.of(model_.rubber());
   std::fill(r_.begin(), r_.end(), 0.);
   for (int column = 0; column < batchColumns; ++column)
     for (const auto& [shares, force_N] : forces_[column])
@@ -201,7 +202,7 @@ void LoadBatch::evaluateResiduals(const std::array<bool, blocks>& live, const st
         continue;
       }
       laneKernels().gather(u_.data() + b * lanes, nodes, kernels.nodes, u.data());
-      const auto residual = inSingle_[b] ? kernels.residualOfLoadsInSingle : kernels.residualOfLoads;
+      const auto residual = inSingle_[b] ? law.residualOfLoadsInSingle : law.residualOfLoads;
       residual(model_.rubber(), {model_.geometry(e), u.data(), x_.data() + own},
                {f.data(), local_.data() + own, range[b].data()});
       if (someAtRest[b]) {

@@ -295,6 +295,7 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state,
     LaneVector dx = assembler_.recover(tangents_, forces_, du, options_.threads);
     mixing.mix(du, dx);
     double length = 1;
+    Outcome shortenedBy = Outcome::Inverted;
     for (int trial = 0;; ++trial) {
       state.rubber.displacements = start.rubber.displacements + length * du;
       for (std::size_t i = 0; i < dx.size(); ++i) state.rubber.unknowns[i] = start.rubber.unknowns[i] + length * dx[i];
@@ -303,14 +304,15 @@ ContactSolver::Outcome ContactSolver::step(double from, double to, State& state,
       assembler_.residual(state.rubber, tangents_, forces_, options_.threads);
       setResidual(to, state);
       if (forces_.smallestJ > 0) break;
-      if (trial == halvings) return Outcome::Inverted;
+      if (trial == halvings) return outcomeOfVolume(forces_.smallestJ);
       if (stopped()) return Outcome::Cancelled;
+      shortenedBy = outcomeOfVolume(forces_.smallestJ);
       length /= 2;
     }
     record(to, iteration);
     const bool lost = iteration >= tangentsToFindForces && relative_ > forcesAreFoundBelow;
     if (lost || !(relative_ < hopeless)) return Outcome::Diverged;
-    if (length < 1 && ++shortened > mostShortened) return Outcome::Inverted;
+    if (length < 1 && ++shortened > mostShortened) return shortenedBy;
     stalled = relative_ < roundingBelow && relative_ > previous / 2 ? stalled + 1 : 0;
     if (length == 1 && (relative_ < options_.relativeTolerance || stalled == stallsOfRounding)) {
       charged_ += std::max(0, iteration - iterationsOfNewTangent);

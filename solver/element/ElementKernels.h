@@ -38,16 +38,26 @@ struct HexLayout {
   static constexpr int geometrySize = points * pointSize;
 };
 
+/// The laws that have kernels of their own; neo-Hooke's is Mooney-Rivlin's with c01 = 0.
+enum class KernelLaw { MooneyRivlin, Yeoh, Gent, Ogden };
+inline constexpr int kernelLaws = 4;
+inline constexpr int ogdenTerms = 3;
+
 struct RubberConstants {
-  double c10_MPa;
-  double c01_MPa;
+  KernelLaw law;
+  /// c10, c01 [MPa]; Yeoh's c10, c20, c30 [MPa]; Gent's mu [MPa], jm; Ogden's mu [MPa], alpha of each term, then zeros.
+  double constants[2 * ogdenTerms];
+  double shearModulus_MPa;               ///< at rest
   double compressibility_per_MPa;        ///< 1/kappa; 0: incompressible
   double tangentCompressibility_per_MPa; ///< the same, kept above 0: the tangent's pressures are eliminated by it
 
   /// Whether single precision will do where iterations correct it: kappa is at most 1000 times the shear modulus. In a
   /// stiffer volume rounding weighs as much as the load.
-  [[nodiscard]] bool roundsWell() const { return 2 * (c10_MPa + c01_MPa) * tangentCompressibility_per_MPa * 1000 >= 1; }
+  [[nodiscard]] bool roundsWell() const { return shearModulus_MPa * tangentCompressibility_per_MPa * 1000 >= 1; }
 };
+
+/// Reported as the smallest J where the rubber is stretched beyond the limit of its law.
+inline constexpr double lockedVolume = -__builtin_inf();
 
 /// What one call of a kernel reads.
 struct ElementInput {
@@ -59,7 +69,7 @@ struct ElementInput {
 struct ElementResidual {
   double* forces;      ///< [3 nodes][8] internal forces
   double* local;       ///< [unknowns][8] residual of the element's own unknowns
-  double* volumeRange; ///< [2][8] smallest and largest J met, kept across calls
+  double* volumeRange; ///< [2][8] smallest (lockedVolume: beyond the law's limit) and largest J met, kept across calls
 };
 
 /// The tangent with the element's own unknowns x eliminated: Kc = Kuu - Kux W, W = Kxx^-1 Kxu.
@@ -69,12 +79,8 @@ struct ElementTangent {
   double* localInverse; ///< Kxx^-1 [unknowns * (unknowns + 1) / 2][8], upper triangle by columns
 };
 
-/// Kernels of one element shape, for the instruction set at hand.
-struct ElementKernels {
-  int nodes;
-  int unknowns;
-  int bubbles; ///< the unknowns that come first; the others are pressures
-  int geometrySize;
+/// Kernels of one element shape and one law of rubber.
+struct LawKernels {
   /// 8 elements, one load.
   void (*residual)(const RubberConstants&, const ElementInput&, const ElementResidual&);
   /// One element, 8 loads: `geometry` holds one number an item.
@@ -82,6 +88,16 @@ struct ElementKernels {
   /// The same exact to a few times 1e-7 of itself: in single precision where that is faster.
   void (*residualOfLoadsInSingle)(const RubberConstants&, const ElementInput&, const ElementResidual&);
   void (*tangent)(const RubberConstants&, const ElementInput&, const ElementResidual&, const ElementTangent&);
+};
+
+/// Kernels of one element shape, for the instruction set at hand.
+struct ElementKernels {
+  int nodes;
+  int unknowns;
+  int bubbles; ///< the unknowns that come first; the others are pressures
+  int geometrySize;
+  LawKernels laws[kernelLaws];
+  [[nodiscard]] const LawKernels& of(const RubberConstants& rubber) const { return laws[int(rubber.law)]; }
   /// forces -= W^T local: 8 elements, or one element (W [unknowns * d]) and 8 loads.
   void (*condense)(const double* elimination, const double* local, double* forces);
   void (*condenseLoads)(const double* elimination, const double* local, double* forces);

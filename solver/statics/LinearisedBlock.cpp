@@ -61,7 +61,7 @@ std::shared_ptr<InitialTangent> LinearisedBlock::makeTangent(std::shared_ptr<con
   if (outcome == SparseCholesky::Outcome::NotPositiveDefinite)
     throw DesignError(
         "the block at rest is not stable on this mesh (its tangent is not positive definite); expected a material "
-        "with c10_MPa + c01_MPa above 0 and a mesh without crushed elements");
+        "with a shear modulus above 0 and a mesh without crushed elements");
   return rest;
 }
 

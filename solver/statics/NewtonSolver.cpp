@@ -20,6 +20,8 @@ constexpr int lineSearchTrials = 6;
 constexpr int definitenessTrials = 4;
 // Relative residual below which one or two more iterations with the same tangent end it.
 constexpr double keepFactorBelow = 1e-5;
+// Above this contraction a factor that is kept is of a state too far away, and not rounding what stagnates.
+constexpr double slowContraction = 0.1;
 // Number of further iterations with the same tangent that cost less than a new one.
 constexpr double keptIterations = 3;
 // A residual below this that stagnates is at round-off level.
@@ -147,7 +149,7 @@ NewtonSolver::Outcome NewtonSolver::movePrescribed(const Loading& loading, doubl
   evaluate(loading, to, state);
   scale_ = internal_.norm(); // now that there are reactions to measure by
   setResidual(loading, to);
-  if (forces_.smallestJ <= 0) return Outcome::Inverted;
+  if (forces_.smallestJ <= 0) return outcomeOfVolume(forces_.smallestJ);
   record(to, 1);
   return relative_ <= keepFactorBelow ? Outcome::Converged : newTangent(loading, to, state);
 }
@@ -195,7 +197,7 @@ NewtonSolver::Outcome NewtonSolver::searchLine(const Loading& loading, double fr
     evaluate(loading, fraction, state);
     if (!overshot(direction)) return Outcome::Converged;
   }
-  return forces_.smallestJ <= 0 ? Outcome::Inverted : Outcome::Diverged;
+  return forces_.smallestJ <= 0 ? outcomeOfVolume(forces_.smallestJ) : Outcome::Diverged;
 }
 
 /// A new tangent; where it is not positive definite, the state goes back along its last step as far as needed. It
@@ -213,11 +215,12 @@ NewtonSolver::Outcome NewtonSolver::definiteTangent(const Loading& loading, doub
 }
 
 /// Whether the tangent in use ends the iteration soon. That of the load step's start contracts all along as it does at
-/// first; one on the way does not.
+/// first; one on the way does not. The tangent of a curved law may change too much on the last step of all.
 bool NewtonSolver::factorWillDo(double previous, bool ofTheStart) const {
-  if (relative_ <= keepFactorBelow) return true;
-  if (!ofTheStart) return false;
   const double contraction = relative_ / previous;
+  const bool curved = assembler_.rubber().law != KernelLaw::MooneyRivlin;
+  if (relative_ <= keepFactorBelow) return contraction < slowContraction || !curved;
+  if (!ofTheStart) return false;
   return contraction < 1 && std::log(options_.relativeTolerance / relative_) >= keptIterations * std::log(contraction);
 }
 

@@ -1,6 +1,7 @@
 #include "solver/statics/StepOutcome.h"
 
 #include "model/base/Text.h"
+#include "solver/element/ElementKernels.h"
 
 #include <cmath>
 
@@ -15,6 +16,10 @@ std::string fractionInWords(double load) {
 
 } // namespace
 
+StepOutcome outcomeOfVolume(double smallestJ) {
+  return smallestJ == lockedVolume ? StepOutcome::Locked : StepOutcome::Inverted;
+}
+
 std::string stopReason(StepOutcome outcome, int iterationsAStep, double reached, double tried) {
   const std::string where = " between load fractions " + fractionInWords(reached) + " and " + fractionInWords(tried);
   switch (outcome) {
@@ -24,6 +29,8 @@ std::string stopReason(StepOutcome outcome, int iterationsAStep, double reached,
     return "cancelled at load fraction " + fractionInWords(reached);
   case StepOutcome::Inverted:
     return "elements turn inside out" + where;
+  case StepOutcome::Locked:
+    return "the rubber is stretched to the limit jm of Gent's law" + where;
   case StepOutcome::Indefinite:
     return "the tangent is no longer positive definite (the block loses stability)" + where;
   case StepOutcome::NoContact:

@@ -98,8 +98,9 @@ void writeDeck(std::ostream& deck, const SensorDesign& design, const BrickGrid& 
   for (const auto& [index, number] : grid.numbers())
     if (index[2] == 0) deck << number << ",\n";
   const Material& m = design.material;
+  const auto& law = std::get<MooneyRivlin>(m.law);
   deck << "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n"
-       << m.c10_MPa << ", " << m.c01_MPa << ", " << 2 * m.compressibility_per_MPa()
+       << law.c10_MPa << ", " << law.c01_MPa << ", " << 2 * m.compressibility_per_MPa()
        << "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER\n*BOUNDARY\nBOTTOM, 1, 3\n"
           "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1.\n*CLOAD\n";
   for (const AreaLoad& area : load.areas)

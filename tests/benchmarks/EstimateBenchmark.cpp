@@ -44,8 +44,7 @@ NamedLoad onDisc(const Eigen::Vector2d& centre_mm, double radius_mm, const Eigen
 SensorDesign ofMaterial(double poissonRatio, double c10_MPa, double c01_MPa) {
   SensorDesign design = paperDesign();
   design.material.poissonRatio = poissonRatio;
-  design.material.c10_MPa = c10_MPa;
-  design.material.c01_MPa = c01_MPa;
+  design.material.law = MooneyRivlin{c10_MPa, c01_MPa};
   return design;
 }
 
@@ -82,7 +81,7 @@ SensorDesign withAreas(int columns, int rows) {
 }
 
 std::vector<Validation> validations() {
-  const double c10 = Material().c10_MPa, c01 = Material().c01_MPa;
+  const double c10 = MooneyRivlin().c10_MPa, c01 = MooneyRivlin().c01_MPa;
   return {
       {"nu 0.3", ofMaterial(0.3, c10, c01), {onArea(0, {1, 0, -6}), onArea(4, {-1, 1, -2})}},
       {"nu 0.45", ofMaterial(0.45, c10, c01), {onArea(2, {0, 0, -4}), onArea(1, {1, 0, 0})}},

@@ -42,6 +42,40 @@ TEST(DesignFile, ReadsBackTheDesignThatItWrote) {
     EXPECT_EQ(parseDesign(toJson(design), "x.json"), design);
 }
 
+TEST(DesignFile, ReadsBackEveryLawOfTheRubber) {
+  for (const RubberLaw& law : {RubberLaw(NeoHooke{1.0 / 3}), RubberLaw(Yeoh{0.2, -0.03, 1e-5}),
+                               RubberLaw(Gent{0.4, 12.5}), RubberLaw(Ogden{{0.4, 0.02, -0.1}, {2, 5, -1.5}})}) {
+    SensorDesign design = paperDesign();
+    design.material.law = law;
+    EXPECT_EQ(parseDesign(toJson(design), "x.json"), design);
+    EXPECT_NE(designFingerprint(design), designFingerprint(paperDesign()));
+  }
+}
+
+TEST(DesignFile, MooneyRivlinNeedNotBeSaidAndIsNotWritten) {
+  const std::string piece = "\"material\": { ";
+  EXPECT_EQ(parseDesign(paperWith(piece, piece + "\"law\": \"mooney-rivlin\", "), "x"), paperDesign());
+  EXPECT_NE(toJson(paperDesign())
+                .find("\"material\": { \"c10_MPa\": 0.3286, \"c01_MPa\": 0.08215, \"poisson_ratio\": 0.499, "
+                      "\"density_t_per_mm3\": 1e-09 },\n"),
+            std::string::npos);
+}
+
+TEST(DesignFile, RefusesKeysOfAnotherLaw) {
+  const std::string piece = "\"material\": { ";
+  const auto refused = [&](const std::string& law) {
+    return refusal([&] { (void)parseDesign(paperWith(piece, piece + "\"law\": \"" + law + "\", "), "x.json"); });
+  };
+  EXPECT_NE(refused("yeoh").find("unknown key material.c01_MPa"), std::string::npos) << refused("yeoh");
+  EXPECT_NE(refused("arruda-boyce").find("mooney-rivlin, neo-hooke, yeoh, gent or ogden"), std::string::npos)
+      << refused("arruda-boyce");
+  const std::string missing = refusal([&] {
+    (void)parseDesign(paperWith("\"c10_MPa\": 0.3286, \"c01_MPa\": 0.08215", "\"law\": \"ogden\", \"mu_MPa\": [1]"),
+                      "x");
+  });
+  EXPECT_NE(missing.find("material.alpha is missing"), std::string::npos) << missing;
+}
+
 TEST(DesignFile, WritesTheShortFormWhereTheDesignHasIt) {
   EXPECT_NE(toJson(paperDesign()).find("\"electrode_y_mm\": [5, 15, 25]"), std::string::npos);
   EXPECT_NE(toJson(paperDesign()).find("\"z_mm\": 4,"), std::string::npos);

@@ -20,14 +20,14 @@ TEST(Material, HasThePapersDerivedConstants) {
 
 TEST(Material, CompressibilityIsTheInverseOfTheBulkModulus) {
   for (const double nu : {0.0, 0.3, 0.49, 0.499, 0.4999999}) {
-    const Material material{0.3286, 0.08215, nu};
+    const Material material{MooneyRivlin{0.3286, 0.08215}, nu};
     EXPECT_NEAR(material.compressibility_per_MPa() * material.bulkModulus_MPa(), 1, kRounding) << nu;
     EXPECT_NEAR(material.bulkModulus_MPa() * (1 - 2 * nu), material.shearModulus_MPa(), kRounding) << nu;
   }
 }
 
 TEST(Material, IsIncompressibleAtOneHalf) {
-  const Material material{0.3286, 0.08215, 0.5};
+  const Material material{MooneyRivlin{0.3286, 0.08215}, 0.5};
   EXPECT_EQ(material.compressibility_per_MPa(), 0);
   EXPECT_TRUE(std::isinf(material.bulkModulus_MPa()));
   EXPECT_EQ(material.smallStrainPoissonRatio(), 0.5);
@@ -35,13 +35,14 @@ TEST(Material, IsIncompressibleAtOneHalf) {
 }
 
 TEST(Material, SmallStrainPoissonRatioLeavesTheEnteredOneAwayFromOneHalf) {
-  EXPECT_NEAR((Material{0.3286, 0.08215, 0.3}).smallStrainPoissonRatio(), 0.324, 5e-4); // printed with three digits
-  EXPECT_NEAR((Material{0.3286, 0.08215, 0.0}).smallStrainPoissonRatio(), 0.125, kRounding);
+  EXPECT_NEAR((Material{MooneyRivlin{0.3286, 0.08215}, 0.3}).smallStrainPoissonRatio(), 0.324,
+              5e-4); // printed with three digits
+  EXPECT_NEAR((Material{MooneyRivlin{0.3286, 0.08215}, 0.0}).smallStrainPoissonRatio(), 0.125, kRounding);
 }
 
 TEST(Material, ModuliObeyTheRelationsOfLinearElasticity) {
   for (const double nu : {0.0, 0.2, 0.45, 0.499}) {
-    const Material material{1.5, 0.25, nu};
+    const Material material{MooneyRivlin{1.5, 0.25}, nu};
     const double E = material.smallStrainYoung_MPa();
     const double v = material.smallStrainPoissonRatio();
     EXPECT_NEAR(E / (2 * (1 + v)), material.shearModulus_MPa(), kRounding * 10) << nu;

@@ -59,6 +59,15 @@ TEST(SensorDesign, IncompressibleRubberIsAllowed) {
   EXPECT_TRUE(check(design).empty());
 }
 
+MooneyRivlin& mooneyRivlin(SensorDesign& design) {
+  return std::get<MooneyRivlin>(design.material.law);
+}
+
+/// A design with another law, for slips in its constants.
+std::function<void(SensorDesign&)> lawOf(RubberLaw law) {
+  return [law = std::move(law)](SensorDesign& design) { design.material.law = law; };
+}
+
 struct Slip {
   const char* name;
   std::function<void(SensorDesign&)> make;
@@ -87,11 +96,23 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Slip{"DensityNegative", [](SensorDesign& d) { d.material.density_t_per_mm3 = -1; },
              "material.density_t_per_mm3", "-1"},
-        Slip{"C10Zero", [](SensorDesign& d) { d.material.c10_MPa = 0; }, "material.c10_MPa", "0 MPa"},
-        Slip{"C10Nan", [](SensorDesign& d) { d.material.c10_MPa = kNan; }, "material.c10_MPa", "nan"},
-        Slip{"C10Infinite", [](SensorDesign& d) { d.material.c10_MPa = kInfinity; }, "material.c10_MPa", "inf"},
-        Slip{"C01Nan", [](SensorDesign& d) { d.material.c01_MPa = kNan; }, "material.c01_MPa", "nan"},
-        Slip{"NoStiffness", [](SensorDesign& d) { d.material.c01_MPa = -0.3286; }, "material.c01_MPa", "-0.3286"},
+        Slip{"C10Zero", [](SensorDesign& d) { mooneyRivlin(d).c10_MPa = 0; }, "material.c10_MPa", "0 MPa"},
+        Slip{"C10Nan", [](SensorDesign& d) { mooneyRivlin(d).c10_MPa = kNan; }, "material.c10_MPa", "nan"},
+        Slip{"C10Infinite", [](SensorDesign& d) { mooneyRivlin(d).c10_MPa = kInfinity; }, "material.c10_MPa", "inf"},
+        Slip{"C01Nan", [](SensorDesign& d) { mooneyRivlin(d).c01_MPa = kNan; }, "material.c01_MPa", "nan"},
+        Slip{"NeoHookeZero", lawOf(NeoHooke{0}), "material.c10_MPa", "got 0 MPa, expected above 0"},
+        Slip{"YeohC10Negative", lawOf(Yeoh{-0.1, 0, 0}), "material.c10_MPa", "-0.1 MPa"},
+        Slip{"YeohC20Nan", lawOf(Yeoh{0.1, kNan, 0}), "material.c20_MPa", "nan"},
+        Slip{"YeohC30Infinite", lawOf(Yeoh{0.1, 0, kInfinity}), "material.c30_MPa", "inf"},
+        Slip{"GentMuZero", lawOf(Gent{0, 30}), "material.mu_MPa", "0 MPa"},
+        Slip{"GentJmZero", lawOf(Gent{0.1, 0}), "material.jm", "got 0, expected above 0"},
+        Slip{"OgdenEmpty", lawOf(Ogden{{}, {}}), "material.mu_MPa", "0 terms, expected 1 to 3"},
+        Slip{"OgdenFourTerms", lawOf(Ogden{{1, 1, 1, 1}, {1, 2, 3, 4}}), "material.mu_MPa", "4 terms"},
+        Slip{"OgdenUnequal", lawOf(Ogden{{0.1, 0.2}, {2}}), "material.alpha", "1 exponents, expected as many"},
+        Slip{"OgdenAlphaZero", lawOf(Ogden{{0.1, 0.2}, {2, 0}}), "material.alpha[1]", "got 0, expected 0.01"},
+        Slip{"OgdenMuNan", lawOf(Ogden{{kNan, 0.2}, {2, 4}}), "material.mu_MPa[0]", "nan"},
+        Slip{"OgdenNoStiffness", lawOf(Ogden{{0.1, -0.2}, {2, 4}}), "material.mu_MPa", "a sum of -0.1 MPa"},
+        Slip{"NoStiffness", [](SensorDesign& d) { mooneyRivlin(d).c01_MPa = -0.3286; }, "material.c01_MPa", "-0.3286"},
         Slip{"PoissonRatioAboveOneHalf", [](SensorDesign& d) { d.material.poissonRatio = 0.50001; },
              "material.poisson_ratio", "0.50001"},
         Slip{"PoissonRatioNegative", [](SensorDesign& d) { d.material.poissonRatio = -0.1; }, "material.poisson_ratio",

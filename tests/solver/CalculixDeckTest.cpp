@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <string>
@@ -42,6 +43,10 @@ std::map<std::string, std::vector<std::vector<double>>> parsed(const std::string
   return blocks;
 }
 
+LoadCase onAreaOfDeck() {
+  return {{{0, {0, 0, -1}}}, {}};
+}
+
 class Deck : public testing::TestWithParam<bool> {
 protected:
   SensorDesign design_ = paperDesign();
@@ -69,7 +74,8 @@ TEST_P(Deck, HoldsTheMeshTheMaterialTheClampAndTheWholeLoadByValue) {
   }
   const auto& material = deck["*HYPERELASTIC, MOONEY-RIVLIN"];
   ASSERT_EQ(material.size(), 1U);
-  const std::vector<double> constants{design_.material.c10_MPa, design_.material.c01_MPa,
+  const std::vector<double> constants{std::get<MooneyRivlin>(design_.material.law).c10_MPa,
+                                      std::get<MooneyRivlin>(design_.material.law).c01_MPa,
                                       2 * design_.material.compressibility_per_MPa()}; // d = 2 / kappa
   ASSERT_EQ(material[0].size(), constants.size());
   for (std::size_t k = 0; k < constants.size(); ++k) EXPECT_NEAR(material[0][k], constants[k], 1e-12); // 13 digits
@@ -92,6 +98,49 @@ TEST_P(Deck, HoldsTheMeshTheMaterialTheClampAndTheWholeLoadByValue) {
   EXPECT_LT((total - load.totalForce_N()).norm(), 1e-10); // sums of numbers of 13 digits
   EXPECT_LT((moment - expected).norm(), 1e-8);
   EXPECT_EQ(deck["*NSET, NSET=UPPER_ELECTRODES"].size(), GetParam() ? 100U : 0U);
+}
+
+TEST_P(Deck, HoldsTheConstantsOfEveryLaw) {
+  struct Written {
+    RubberLaw law;
+    std::string keyword;
+    std::vector<std::vector<double>> lines; ///< D1 = 2 / kappa is left to the test
+  };
+  const double vanishing = 1e9; // D2 and D3, for which CalculiX replaces 0
+  const std::vector<Written> all{
+      {NeoHooke{0.2}, "*HYPERELASTIC, NEO HOOKE", {{0.2, 0}}},
+      {Yeoh{0.2, 0.03, 0.002}, "*HYPERELASTIC, YEOH", {{0.2, 0.03, 0.002, 0, vanishing, vanishing}}},
+      {Ogden{{0.4}, {2}}, "*HYPERELASTIC, OGDEN, N=1", {{0.4, 2, 0}}},
+      {Ogden{{0.4, 0.02}, {2, 5}}, "*HYPERELASTIC, OGDEN, N=2", {{0.4, 2, 0.02, 5, 0, vanishing}}},
+      {Ogden{{0.4, 0.02, 0.1}, {2, 5, -2}},
+       "*HYPERELASTIC, OGDEN, N=3",
+       {{0.4, 2, 0.02, 5, 0.1, -2, 0, vanishing}, {vanishing}}}};
+  for (const auto& [law, keyword, lines] : all) {
+    design_.material.law = law;
+    auto deck = parsed(calculixDeck(design_, mesh_, onAreaOfDeck()));
+    ASSERT_TRUE(deck.contains(keyword)) << keyword;
+    const auto& written = deck[keyword];
+    ASSERT_EQ(written.size(), lines.size()) << keyword;
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+      ASSERT_EQ(written[line].size(), lines[line].size()) << keyword;
+      for (std::size_t k = 0; k < lines[line].size(); ++k) {
+        const double expected = lines[line][k] == 0 ? 2 * design_.material.compressibility_per_MPa() : lines[line][k];
+        EXPECT_NEAR(written[line][k], expected, 1e-12 * std::abs(expected)) << keyword;
+      }
+    }
+  }
+}
+
+TEST_P(Deck, IsRefusedForGentsLawWhichCalculixDoesNotHave) {
+  design_.material.law = Gent{};
+  try {
+    static_cast<void>(calculixDeck(design_, mesh_, onAreaOfDeck()));
+    FAIL() << "written";
+  } catch (const DesignError& error) {
+    EXPECT_NE(std::string(error.what()).find("got gent, expected mooney-rivlin, neo-hooke, yeoh or ogden"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_P(Deck, IsRefusedForIncompressibleRubber) {

@@ -1,6 +1,7 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
 #include "io/DesignFile.h"
+#include "model/MaterialCheck.h"
 
 #include <iostream>
 #include <memory>
@@ -25,6 +26,7 @@ void describe(const SensorDesign& design, Session& session) {
   session.result["areas"] = design.areas.count();
   session.result["resistance_law"] = design.field() ? "field" : "pairs";
   if (design.field()) session.result["readout"] = kReadouts.name(design.field()->readout);
+  session.result["rubber_law"] = kRubberLaws.name(kindOf(rubber.law));
   session.result["shear_modulus_MPa"] = rubber.shearModulus_MPa();
   session.result["compressibility_per_MPa"] = rubber.compressibility_per_MPa();
   session.result["small_strain_young_MPa"] = rubber.smallStrainYoung_MPa();
@@ -41,6 +43,7 @@ Exit run(const DesignArguments& arguments, Session& session) {
     session.result["file"] = arguments.checked;
     describe(design, session);
     for (const std::string& warning : designWarnings(design)) session.warnings.push_back(warning);
+    if (const auto warning = stabilityWarning(design.material)) session.warnings.push_back(*warning);
     if (session.json) return Exit::Done;
     std::cout << arguments.checked << ": the design can be built\n";
     for (const std::string& warning : session.warnings) std::cout << "warning: " << warning << '\n';

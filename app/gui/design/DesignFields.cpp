@@ -1,107 +1,17 @@
 #include "app/gui/design/DesignFields.h"
 
-#include "app/gui/widgets/SpinBoxes.h"
-#include "app/gui/widgets/UnclearComma.h"
-#include "model/base/Text.h"
+#include "app/gui/design/fields/FieldText.h"
+#include "app/gui/design/fields/RubberFields.h"
 
 #include <QObject>
-#include <QStringList>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 
 namespace palp {
 
 namespace {
-
-QString shortText(double value) {
-  return QString::fromStdString(text(value));
-}
-
-QString setNumber(double& target, const QString& words) {
-  const auto value = typedNumber(words);
-  if (!value) return QObject::tr("\"%1\" is not a number; use a decimal point, for example 0.5").arg(words);
-  target = *value;
-  return {};
-}
-
-QString setCount(int& target, const QString& words) {
-  bool good = false;
-  const int value = words.trimmed().toInt(&good);
-  if (!good) return QObject::tr("\"%1\" is not a whole number").arg(words);
-  target = value;
-  return {};
-}
-
-/// Continues from the last two values in equal steps until `last`, or returns what is wrong.
-QString goOn(std::vector<double>& values, double last) {
-  constexpr double kMost = 1000;
-  if (values.size() < 2)
-    return QObject::tr("\"...\" must follow at least two numbers, for example 0.5, 1.5, ..., 29.5");
-  const double start = values.back(), step = start - values[values.size() - 2];
-  const double steps = (last - start) / step;
-  if (!(steps >= 1 - 1e-6 && steps <= kMost) || std::abs(steps - std::round(steps)) > 1e-6)
-    return QObject::tr("%1 cannot be reached from %2 in 1 to 1000 equal steps of %3")
-        .arg(shortText(last), shortText(start), shortText(step));
-  for (int k = 1; k < std::lround(steps); ++k) // 1e-9 mm: 7.333333332 and not ...20000005
-    values.push_back(std::round((start + k * step) * 1e9) / 1e9);
-  values.push_back(last);
-  return {};
-}
-
-QString setList(std::vector<double>& target, const QString& words) {
-  if (const QString unclear = unclearComma(words); !unclear.isEmpty()) return unclear;
-  std::vector<double> values;
-  bool evenly = false; // after "..."
-  for (const QString& word : words.split(',', Qt::SkipEmptyParts)) {
-    if (word.trimmed() == "..." && !evenly) {
-      evenly = true;
-      continue;
-    }
-    double value = 0;
-    if (const QString wrong = setNumber(value, word); !wrong.isEmpty()) return wrong;
-    if (!evenly)
-      values.push_back(value);
-    else if (const QString wrong = goOn(values, value); !wrong.isEmpty())
-      return wrong;
-    evenly = false;
-  }
-  if (evenly) return QObject::tr("\"...\" must be followed by the last number, for example 0.5, 1.5, ..., 29.5");
-  if (values.empty()) return QObject::tr("the list is empty; enter numbers separated by commas");
-  target = values;
-  return {};
-}
-
-/// Evenly spaced numbers in short, where that gives the very same numbers back.
-QString listText(const std::vector<double>& values) {
-  QStringList texts;
-  for (const double value : values) texts << shortText(value);
-  if (values.size() > 4) {
-    const QString evenly = texts[0] + ", " + texts[1] + ", ..., " + texts.back();
-    std::vector<double> again;
-    if (setList(again, evenly).isEmpty() && again == values) return evenly;
-  }
-  return texts.join(", ");
-}
-
-/// Lists wire by wire are separated by semicolons.
-QString listsText(const std::vector<std::vector<double>>& lists) {
-  QStringList texts;
-  for (const std::vector<double>& list : lists) texts << listText(list);
-  return texts.join("; ");
-}
-
-QString setLists(std::vector<std::vector<double>>& target, const QString& words) {
-  std::vector<std::vector<double>> lists;
-  for (const QString& word : words.split(';')) {
-    lists.emplace_back();
-    if (const QString wrong = setList(lists.back(), word); !wrong.isEmpty()) return wrong;
-  }
-  target = lists;
-  return {};
-}
 
 template <class Part>
 DesignField number(const QString& key, const QString& group, const QString& label, const QString& unit,
@@ -111,7 +21,7 @@ DesignField number(const QString& key, const QString& group, const QString& labe
           label,
           unit,
           tip,
-          [part](SensorDesign design) { return shortText(part(design)); },
+          [part](SensorDesign design) { return fieldText(part(design)); },
           [part](SensorDesign& design, const QString& words) { return setNumber(part(design), words); }};
 }
 
@@ -167,17 +77,12 @@ void addBody(Fields& fields) {
                             tr("size along %1").arg(axes()[static_cast<std::size_t>(d)]), "mm",
                             tr("Length of the block's side, above 0; the bottom face is fixed"),
                             [d](D& s) -> double& { return s.block_mm[d]; }));
-  fields.push_back(number("material.c10_MPa", tr("Rubber"), "c10", "MPa",
-                          tr("Mooney-Rivlin constant C10, above 0. Other laws (Yeoh, Ogden) and Shore hardness are not "
-                             "available; Help shows how to estimate C10 and C01 from Shore A."),
-                          [](D& s) -> double& { return s.material.c10_MPa; }));
-  fields.push_back(number("material.c01_MPa", tr("Rubber"), "c01", "MPa",
-                          tr("Mooney-Rivlin constant C01; C10 + C01 must be above 0"),
-                          [](D& s) -> double& { return s.material.c01_MPa; }));
-  fields.push_back(number(
-      "material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
-      tr("0 to 0.5; it sets the compressibility d = (1 - 2 nu) / (C10 + C01) as in ANSYS, and 0.5 is incompressible"),
-      [](D& s) -> double& { return s.material.poissonRatio; }));
+  for (const DesignField& field : rubberLawFields()) fields.push_back(field);
+  fields.push_back(
+      number("material.poisson_ratio", tr("Rubber"), tr("Poisson's ratio"), "",
+             tr("0 to 0.5, which is incompressible; it sets the bulk modulus kappa = mu / (1 - 2 nu) with "
+                "the shear modulus mu at rest, for Mooney-Rivlin d = (1 - 2 nu) / (C10 + C01) as in ANSYS"),
+             [](D& s) -> double& { return s.material.poissonRatio; }));
   fields.push_back(number("material.density_t_per_mm3", tr("Rubber"), tr("density"), "t/mm3",
                           tr("Density of the rubber, above 0"),
                           [](D& s) -> double& { return s.material.density_t_per_mm3; }));
@@ -220,7 +125,7 @@ DesignField ofLaw(const QString& key, const QString& label, const QString& unit,
           tip,
           [part](const SensorDesign& design) {
             const Law* law = std::get_if<Law>(&design.resistance);
-            return law != nullptr ? shortText(law->*part) : QString();
+            return law != nullptr ? fieldText(law->*part) : QString();
           },
           [part](SensorDesign& design, const QString& words) {
             Law* law = std::get_if<Law>(&design.resistance);
@@ -228,16 +133,6 @@ DesignField ofLaw(const QString& key, const QString& label, const QString& unit,
           },
           {},
           [](const SensorDesign& design) { return std::holds_alternative<Law>(design.resistance); }};
-}
-
-/// Which of the choices the words name, or what is wrong.
-QString setChoice(std::size_t& target, const std::vector<DesignChoice>& choices, const QString& words) {
-  for (std::size_t k = 0; k < choices.size(); ++k)
-    if (choices[k].words == words) {
-      target = k;
-      return {};
-    }
-  return QObject::tr("\"%1\" is not one of the choices").arg(words);
 }
 
 DesignField law() {

@@ -87,8 +87,8 @@ void DesignPanel::buildPresets() {
   layout()->addWidget(presets);
   auto* limits =
       wrappedLabel("designLimits", "hint",
-                   tr("One rectangular block of Mooney-Rivlin rubber: no round or domed bodies, no layers, no "
-                      "other laws, no creep (F1, What Palp cannot do)."));
+                   tr("One rectangular block of one hyperelastic rubber: no round or domed bodies, no layers, no creep "
+                      "(F1, What Palp cannot do)."));
   layout()->addWidget(limits);
   connect(presets, &QComboBox::activated, this, [this, presets, all](int k) {
     presets->setCurrentIndex(-1);
@@ -115,7 +115,15 @@ void DesignPanel::buildFields() {
     }
     const QString what = tr("Change %1").arg((field.group + " " + field.label).toLower());
     const bool size = field.key.startsWith("block_mm");
-    rows_.add(field, *groups[field.group], [this, what, size] { size ? readSize(what) : read(what); });
+    const bool lawOfRubber = field.key == "material.law";
+    rows_.add(field, *groups[field.group], [this, what, size, lawOfRubber] {
+      if (size)
+        readSize(what);
+      else if (lawOfRubber)
+        readRubberLaw(what);
+      else
+        read(what);
+    });
     if (field.key == "block_mm[2]") addWireScaling(*groups[field.group]);
     if (field.key == "material.density_t_per_mm3") groups[field.group]->addRow(derived_);
     if (field.key == "lower_layer.z_mm") addFollowing(*groups[field.group]);
@@ -148,6 +156,7 @@ void DesignPanel::display(const SensorDesign& design) {
   if (design != design_) scaledFrom_.reset(); // not by what is typed here
   design_ = design;
   rows_.display(design);
+  rows_.showThoseOf(design);
   law_->display(design);
   follows_->setChecked(design.lowerFollowsRubber);
   showDerived(design);
@@ -186,6 +195,14 @@ void DesignPanel::readSize(const QString& what) {
   if (!good) return;
   design_ = next; // before display(), which detects by it who changed the design
   emit edited(tr("%1, and the wires with it").arg(what), next);
+}
+
+void DesignPanel::readRubberLaw(const QString& what) {
+  if (displaying_) return;
+  SensorDesign next = design_; // without what is typed: the other law has its own constants
+  if (!rows_.read(next, "material.law")) return;
+  display(next);
+  emit edited(what, next);
 }
 
 void DesignPanel::say(const std::vector<DesignFault>& faults, bool applied) {

@@ -38,6 +38,7 @@ private:
   void read(const QString& what);
   /// Another size of the block, with its wires in the same shares of it where that is wanted.
   void readSize(const QString& what);
+  void readRubberLaw(const QString& what);
   void say(const std::vector<DesignFault>& faults, bool applied);
   void showDerived(const SensorDesign& design);
 

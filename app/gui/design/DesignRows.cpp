@@ -30,7 +30,7 @@ QComboBox* choiceOf(const DesignField& field) {
 
 /// What a design has of a parameter, with its unit; where it has no such parameter, the law it has instead.
 QString usedWords(const DesignField& field, const SensorDesign& inUse) {
-  if (!field.has(inUse)) return designField("resistance.law").text(inUse);
+  if (!field.has(inUse)) return designField(field.key.section('.', 0, 0) + ".law").text(inUse);
   return field.text(inUse) + (field.unit.isEmpty() ? QString() : " " + field.unit);
 }
 

@@ -39,6 +39,11 @@ std::optional<double> numberOf(const DesignField& field, const SensorDesign& des
   return numberIn(field.text(design).toStdString());
 }
 
+/// The laws by which a design has its numbers.
+std::pair<std::size_t, std::size_t> lawsOf(const SensorDesign& design) {
+  return {design.resistance.index(), design.material.law.index()};
+}
+
 const DesignField* fieldOf(const std::string& key) {
   const auto field = std::find_if(designFields().begin(), designFields().end(),
                                   [&](const DesignField& each) { return each.key.toStdString() == key; });
@@ -160,7 +165,7 @@ void DesignSweep::displayProject() {
   const Project& project = workbench_.project();
   const DesignSweepSettings& sweep = project.studies.sweep;
   const QSignalBlocker quietNumber(number_), quietSteps(steps_);
-  if (number_->count() == 0 || law_ != project.design.resistance.index()) listNumbers(project.design);
+  if (number_->count() == 0 || laws_ != lawsOf(project.design)) listNumbers(project.design);
   number_->setCurrentIndex(std::max(number_->findData(QString::fromStdString(sweep.number)), 0));
   steps_->setValue(sweep.values);
   const DesignField& field = *fieldOf(number_->currentData().toString().toStdString());
@@ -185,7 +190,7 @@ void DesignSweep::displayProject() {
 }
 
 void DesignSweep::listNumbers(const SensorDesign& design) {
-  law_ = design.resistance.index();
+  laws_ = lawsOf(design);
   number_->clear();
   for (const DesignField& field : designFields())
     if (field.has(design) && numberOf(field, design)) number_->addItem(labelOf(field), field.key);

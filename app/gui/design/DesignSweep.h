@@ -41,8 +41,8 @@ private:
 
   Workbench& workbench_;
   JobRunner runner_;
-  std::size_t law_ = 0;                   ///< whose numbers are listed
-  std::optional<DesignSweepCurve> shown_; ///< as it is displayed
+  std::pair<std::size_t, std::size_t> laws_; ///< of resistance and rubber, whose numbers are listed
+  std::optional<DesignSweepCurve> shown_;    ///< as it is displayed
   QComboBox* number_ = nullptr;
   QDoubleSpinBox* from_ = nullptr;
   QDoubleSpinBox* to_ = nullptr;

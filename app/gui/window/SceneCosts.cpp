@@ -190,7 +190,9 @@ QJsonArray SceneCosts::oneScene(const QString& name) {
   steps << step(
       "left alone", [] {}, kAlone_s);
   steps << step("another load", otherLoad);
-  steps << step("another material", edited([](Project& project) { project.design.material.c10_MPa *= 0.9; }));
+  steps << step("another material", edited([](Project& project) {
+                  project.design.material.law = timesStress(project.design.material.law, 0.9);
+                }));
   const auto moved = [](ElectrodeLayer& layer, double factor) {
     for (std::vector<double>& depths : layer.z_mm)
       for (double& z : depths) z *= factor;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/element/kernels/Rubber.h"
+#include "solver/element/kernels/OgdenPoint.h"
 
 namespace palp::PALP_KERNEL {
 
@@ -20,9 +20,9 @@ struct HexPoint {
   Pack N[8][3], weight;
 };
 
-template <int Stride>
+template <int Stride, class Point>
 PALP_INLINE void hexPoint(const double* geometry, int q, int lane, const Pack u[8][3], Pack pressure, HexPoint& point,
-                          Rubber& m) {
+                          Point& m) {
   for (int n = 0; n < 8; ++n)
     for (int d = 0; d < 3; ++d) point.N[n][d] = geometryItem<Stride>(geometry, Hex::pointSize * q + 3 * n + d, lane);
   point.weight = geometryItem<Stride>(geometry, Hex::pointSize * q + Hex::weight, lane);
@@ -40,7 +40,7 @@ struct HexSums {
   Pack smallestJ, largestJ;
 };
 
-PALP_INLINE void addHexPoint(const Rubber& m, const HexPoint& point, HexSums& sums) {
+template <class Point> PALP_INLINE void addHexPoint(const Point& m, const HexPoint& point, HexSums& sums) {
   Pack P[3][3];
   weightedStress(m, point.weight, P);
   for (int n = 0; n < 8; ++n)
@@ -48,12 +48,12 @@ PALP_INLINE void addHexPoint(const Rubber& m, const HexPoint& point, HexSums& su
       sums.forces[n][r] += P[r][0] * point.N[n][0] + P[r][1] * point.N[n][1] + P[r][2] * point.N[n][2];
   sums.volume += point.weight * (m.J - 1.0);
   sums.weight += point.weight;
-  sums.smallestJ = smaller(sums.smallestJ, m.J);
+  sums.smallestJ = smaller(sums.smallestJ, m.leastJ);
   sums.largestJ = larger(sums.largestJ, m.J);
 }
 
 /// Residual of the lanes and, where K is given, the uncondensed stiffness over 24 displacements and the pressure.
-template <int Stride, bool WithStiffness>
+template <class Point, int Stride, bool WithStiffness>
 PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out, int lane,
                             Pack K[Hex::rows][Hex::rows]) {
   constexpr double one = 1; // the pressure's shape function
@@ -64,9 +64,8 @@ PALP_INLINE void hexElement(const RubberConstants& rubber, const ElementInput& i
   HexSums sums;
   sums.smallestJ = load(out.volumeRange + lane);
   sums.largestJ = load(out.volumeRange + 8 + lane);
-  Rubber m;
-  m.c10 = rubber.c10_MPa;
-  m.c01 = rubber.c01_MPa;
+  Point m;
+  m.law = decltype(m.law)(rubber);
 #pragma GCC unroll 1
   for (int q = 0; q < Hex::points; ++q) {
     HexPoint point;

@@ -10,63 +10,81 @@
 namespace palp::PALP_KERNEL {
 namespace {
 
+template <class Point>
 void tetResidual8(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
-  for (int lane = 0; lane < 8; lane += packSize) tetResidual(rubber, tetGeometry(in.geometry + lane), in, out, lane);
+  for (int lane = 0; lane < 8; lane += packSize)
+    tetResidual<Point>(rubber, tetGeometry(in.geometry + lane), in, out, lane);
 }
 
+template <class Point>
 void tetResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
   const SharedGeometry geometry = tetSharedGeometry(in.geometry);
-  for (int lane = 0; lane < 8; lane += packSize) tetResidual(rubber, geometry, in, out, lane);
+  for (int lane = 0; lane < 8; lane += packSize) tetResidual<Point>(rubber, geometry, in, out, lane);
 }
 
+template <class Law>
 void tetResidualOfLoadsInSingle(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
   SingleGeometry geometry;
   for (int i = 0; i < Tet::volume; ++i) geometry.g[i / 3][i % 3] = float(in.geometry[i]);
   geometry.volume = float(in.geometry[Tet::volume]);
-  for (int lane = 0; lane < 8; lane += singlePackSize) tetResidualInSingle(rubber, geometry, in, out, lane);
+  for (int lane = 0; lane < 8; lane += singlePackSize) tetResidualInSingle<Law>(rubber, geometry, in, out, lane);
 }
 
+template <class Point>
 void tetTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                 const ElementTangent& tangent) {
   for (int lane = 0; lane < 8; lane += packSize) {
     Pack K[Tet::rows][Tet::rows];
-    tetStiffness(rubber, in, out, lane, K);
+    tetStiffness<Point>(rubber, in, out, lane, K);
     eliminate<Tet::dofs, Tet::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
   }
 }
 
-void hexResidual8(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
-  for (int lane = 0; lane < 8; lane += packSize) hexElement<8, false>(rubber, in, out, lane, nullptr);
+template <class Point, int Stride>
+void hexResidual(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
+  for (int lane = 0; lane < 8; lane += packSize) hexElement<Point, Stride, false>(rubber, in, out, lane, nullptr);
 }
 
-void hexResidualOfLoads(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out) {
-  for (int lane = 0; lane < 8; lane += packSize) hexElement<1, false>(rubber, in, out, lane, nullptr);
-}
-
+template <class Point>
 void hexTangent(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                 const ElementTangent& tangent) {
   for (int lane = 0; lane < 8; lane += packSize) {
     Pack K[Hex::rows][Hex::rows];
     for (int i = 0; i < Hex::rows; ++i)
       for (int j = 0; j < Hex::rows; ++j) K[i][j] = Pack{};
-    hexElement<8, true>(rubber, in, out, lane, K);
+    hexElement<Point, 8, true>(rubber, in, out, lane, K);
     eliminate<Hex::dofs, Hex::unknowns>(K, tangent.stiffness, tangent.elimination, tangent.localInverse, lane);
   }
 }
 
-template <class Element>
-constexpr ElementKernels
-kernelsOf(decltype(ElementKernels::residual) residual, decltype(ElementKernels::residualOfLoads) residualOfLoads,
-          decltype(ElementKernels::residualOfLoads) inSingle, decltype(ElementKernels::tangent) tangent) {
+/// A law of the invariants, in both precisions.
+template <template <class> class Law> constexpr LawKernels tetLaw() {
+  using Point = Rubber<Law<double>>;
+  return {tetResidual8<Point>, tetResidualOfLoads<Point>, tetResidualOfLoadsInSingle<Law<float>>, tetTangent<Point>};
+}
+
+template <class Point> constexpr LawKernels hexLaw() {
+  return {hexResidual<Point, 8>, hexResidual<Point, 1>, hexResidual<Point, 1>, hexTangent<Point>};
+}
+
+/// Kernels of all laws in the order of KernelLaw. Single precision gains nothing where eigenvectors take most of the
+/// time.
+constexpr LawKernels tetLaws[kernelLaws] = {
+    tetLaw<MooneyRivlinLaw>(),
+    tetLaw<YeohLaw>(),
+    tetLaw<GentLaw>(),
+    {tetResidual8<OgdenPoint>, tetResidualOfLoads<OgdenPoint>, tetResidualOfLoads<OgdenPoint>, tetTangent<OgdenPoint>}};
+constexpr LawKernels hexLaws[kernelLaws] = {hexLaw<Rubber<MooneyRivlinLaw<double>>>(),
+                                            hexLaw<Rubber<YeohLaw<double>>>(), hexLaw<Rubber<GentLaw<double>>>(),
+                                            hexLaw<OgdenPoint>()};
+
+template <class Element> constexpr ElementKernels kernelsOf(const LawKernels (&laws)[kernelLaws]) {
   constexpr int D = Element::dofs, X = Element::unknowns;
   return {.nodes = Element::nodes,
           .unknowns = X,
           .bubbles = Element::bubbles,
           .geometrySize = Element::geometrySize,
-          .residual = residual,
-          .residualOfLoads = residualOfLoads,
-          .residualOfLoadsInSingle = inSingle,
-          .tangent = tangent,
+          .laws = {laws[0], laws[1], laws[2], laws[3]},
           .condense = condenseForces<D, X, 8>,
           .condenseLoads = condenseForces<D, X, 1>,
           .recover = recoverUnknowns<D, X, 8>,
@@ -104,9 +122,8 @@ const LaneKernels laneKernelSet = {.forward = forwardLanes,
                                    .narrow = scaledFloats,
                                    .widen = scaledDoubles,
                                    .subtractProduct = subtractOfLanes};
-constexpr ElementKernels tetSet =
-    kernelsOf<Tet>(tetResidual8, tetResidualOfLoads, tetResidualOfLoadsInSingle, tetTangent);
-constexpr ElementKernels hexSet = kernelsOf<Hex>(hexResidual8, hexResidualOfLoads, hexResidualOfLoads, hexTangent);
+constexpr ElementKernels tetSet = kernelsOf<Tet>(tetLaws);
+constexpr ElementKernels hexSet = kernelsOf<Hex>(hexLaws);
 const ElementKernels tetKernels = tetSet;
 const ElementKernels hexKernels = hexSet;
 

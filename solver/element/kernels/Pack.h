@@ -4,6 +4,7 @@
 // hence the namespace of its own and no inline code from elsewhere.
 
 #define PALP_INLINE static inline __attribute__((always_inline))
+#define PALP_INLINE_MEMBER inline __attribute__((always_inline))
 
 namespace palp::PALP_KERNEL {
 

@@ -44,10 +44,11 @@ PALP_INLINE Single inverseCubeRootLessOne(Single d) {
 
 /// First Piola-Kirchhoff stress, tension positive, with pressure p (Rubber.h): with K = cof F - I, b = F F^T - I,
 /// t = tr b,
-///   P = a1 (H - K - beta cof F) + a2 (t F - b F + 2 (H - K) - 2 delta cof F) + p cof F,   a1 = 2 c10 J^(-2/3),
-///   a2 = 2 c01 J^(-4/3),   1 + beta = I1 / (3 J),   1 + delta = I2 / (3 J);
-/// gives J - 1.
-PALP_INLINE Single stressInSingle(float c10, float c01, const Single H[3][3], Single p, Single P[3][3]) {
+///   P = a1 (H - K - beta cof F) + a2 (t F - b F + 2 (H - K) - 2 delta cof F) + p cof F,   a1 = 2 w1 J^(-2/3),
+///   a2 = 2 w2 J^(-4/3),   1 + beta = I1 / (3 J),   1 + delta = I2 / (3 J);
+/// gives J - 1, and the smallest J as Rubber has it.
+template <class Law>
+PALP_INLINE Single stressInSingle(const Law& law, const Single H[3][3], Single p, Single P[3][3], Single& leastJ) {
   Single cof[3][3]; // of H
   for (int r = 0; r < 3; ++r)
     for (int s = 0; s < 3; ++s) {
@@ -62,25 +63,41 @@ PALP_INLINE Single stressInSingle(float c10, float c01, const Single H[3][3], Si
     for (int s = r; s < 3; ++s)
       b[r][s] = b[s][r] = H[r][s] + H[s][r] + (H[r][0] * H[s][0] + H[r][1] * H[s][1] + H[r][2] * H[s][2]);
   const Single t = b[0][0] + b[1][1] + b[2][2];
-  const Single squares = b[0][0] * b[0][0] + b[1][1] * b[1][1] + b[2][2] * b[2][2] +
-                         2.0F * (b[0][1] * b[0][1] + b[0][2] * b[0][2] + b[1][2] * b[1][2]);
   const Single x = inverseCubeRootLessOne(growth);
   const Single inverseJ = x * (3.0F + x * (3.0F + x)); // less one, as the next three
   const Single alpha = (1.0F / 3) * t, beta = alpha + inverseJ + alpha * inverseJ;
-  const Single gamma = (1.0F / 3) * (2.0F * t + 0.5F * (t * t - squares)), delta = gamma + inverseJ + gamma * inverseJ;
   const Single j1 = (1.0F + x) * (1.0F + x);
-  const Single a1 = (2.0F * c10) * j1, a2 = (2.0F * c01) * (j1 * j1);
-  const Single shear = a1 + 2.0F * a2, c = p - a1 * beta - 2.0F * (a2 * delta);
+  const Single stretching = t * j1 + 3.0F * x * (2.0F + x); // I1bar - 3
+  const auto a1 = (2.0F * law.slope(stretching)) * j1;
+  leastJ = 1.0F + growth;
+  if constexpr (Law::limited) leastJ = law.within(stretching) ? leastJ : Single{} + float(lockedVolume);
+  Single shear = a1, a2{}, c;
+  if constexpr (Law::hasI2) {
+    const Single squares = b[0][0] * b[0][0] + b[1][1] * b[1][1] + b[2][2] * b[2][2] +
+                           2.0F * (b[0][1] * b[0][1] + b[0][2] * b[0][2] + b[1][2] * b[1][2]);
+    const Single gamma = (1.0F / 3) * (2.0F * t + 0.5F * (t * t - squares)),
+                 delta = gamma + inverseJ + gamma * inverseJ;
+    a2 = (2.0F * law.slope2()) * (j1 * j1);
+    shear = a1 + 2.0F * a2;
+    c = p - a1 * beta - 2.0F * (a2 * delta);
+  } else {
+    c = p - a1 * beta;
+  }
   for (int r = 0; r < 3; ++r)
     for (int s = 0; s < 3; ++s) {
-      Single K = cof[r][s] - H[s][r], cofF = K, E = t * H[r][s] - b[r][s];
+      Single K = cof[r][s] - H[s][r], cofF = K, E{};
       if (r == s) {
         K += trace;
         cofF = K + 1.0F;
-        E += t;
       }
-      E -= b[r][0] * H[0][s] + b[r][1] * H[1][s] + b[r][2] * H[2][s];
-      P[r][s] = shear * (H[r][s] - K) + a2 * E + c * cofF;
+      P[r][s] = shear * (H[r][s] - K);
+      if constexpr (Law::hasI2) {
+        E = t * H[r][s] - b[r][s];
+        if (r == s) E += t;
+        E -= b[r][0] * H[0][s] + b[r][1] * H[1][s] + b[r][2] * H[2][s];
+        P[r][s] += a2 * E;
+      }
+      P[r][s] += c * cofF;
     }
   return growth;
 }
@@ -136,8 +153,8 @@ struct SinglePoint {
   float even, own, steep, weight;
 };
 
-template <bool Pair>
-PALP_INLINE void addSinglePoint(const RubberConstants& rubber, const SingleGeometry& geo, const SingleState& state,
+template <bool Pair, class Law>
+PALP_INLINE void addSinglePoint(const Law& law, const SingleGeometry& geo, const SingleState& state,
                                 const SinglePoint& point, int i, int j, SingleSums& sums) {
   float g[3];
   for (int s = 0; s < 3; ++s) g[s] = point.steep * (Pair ? geo.g[i][s] + geo.g[j][s] : geo.g[i][s]);
@@ -150,8 +167,8 @@ PALP_INLINE void addSinglePoint(const RubberConstants& rubber, const SingleGeome
     }
   Single pressure = state.pressure[i];
   if constexpr (Pair) pressure += state.pressure[j];
-  const Single growth = stressInSingle(float(rubber.c10_MPa), float(rubber.c01_MPa), H,
-                                       point.even * state.pressures + point.own * pressure, P);
+  Single least;
+  const Single growth = stressInSingle(law, H, point.even * state.pressures + point.own * pressure, P, least);
   const float weight = point.weight * geo.volume;
   const auto add = [&](int k, float share) {
     for (int r = 0; r < 3; ++r)
@@ -163,7 +180,8 @@ PALP_INLINE void addSinglePoint(const RubberConstants& rubber, const SingleGeome
   if constexpr (Pair) add(j, weight * point.own);
   for (int r = 0; r < 3; ++r) sums.bubble[r] += weight * (P[r][0] * g[0] + P[r][1] * g[1] + P[r][2] * g[2]);
   const Single J = 1.0F + growth;
-  sums.smallestJ = ((sums.smallestJ < J) | (sums.smallestJ != sums.smallestJ)) ? sums.smallestJ : J; // as smaller
+  sums.smallestJ =
+      ((sums.smallestJ < least) | (sums.smallestJ != sums.smallestJ)) ? sums.smallestJ : least; // as smaller
   sums.largestJ = ((sums.largestJ > J) | (sums.largestJ != sums.largestJ)) ? sums.largestJ : J;
 }
 
@@ -209,8 +227,10 @@ PALP_INLINE void storeSingleResidual(const SingleGeometry& geo, const SingleStat
 }
 
 /// One element, lanes of loads from `lane` on.
+template <class Law>
 PALP_INLINE void tetResidualInSingle(const RubberConstants& rubber, const SingleGeometry& geo, const ElementInput& in,
                                      const ElementResidual& out, int lane) {
+  const Law law(rubber);
   SingleState state;
   singleState(geo, in.displacements + lane, in.unknowns + lane, state);
   const ElementResidual at{out.forces + lane, out.local + lane, out.volumeRange + lane};
@@ -220,10 +240,10 @@ PALP_INLINE void tetResidualInSingle(const RubberConstants& rubber, const Single
 #pragma GCC unroll 1
   for (int orbit = 0; orbit < 2; ++orbit)
 #pragma GCC unroll 1
-    for (int k = 0; k < 4; ++k) addSinglePoint<false>(rubber, geo, state, singleOrbits[orbit], k, k, sums);
+    for (int k = 0; k < 4; ++k) addSinglePoint<false>(law, geo, state, singleOrbits[orbit], k, k, sums);
 #pragma GCC unroll 1
   for (int e = 0; e < 6; ++e)
-    addSinglePoint<true>(rubber, geo, state, singleOrbits[2], tetEdges[e][0], tetEdges[e][1], sums);
+    addSinglePoint<true>(law, geo, state, singleOrbits[2], tetEdges[e][0], tetEdges[e][1], sums);
   storeSingleResidual(geo, state, sums, float(rubber.compressibility_per_MPa), at);
 }
 

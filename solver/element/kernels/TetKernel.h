@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/element/kernels/Rubber.h"
+#include "solver/element/kernels/OgdenPoint.h"
 
 namespace palp::PALP_KERNEL {
 
@@ -98,8 +98,8 @@ struct TetSums {
   Pack smallestJ, largestJ;
 };
 
-template <class Geometry>
-PALP_INLINE void tetPoint(const Geometry& geo, const TetState& state, int q, Rubber& m, Pack gradient[3]) {
+template <class Geometry, class Point>
+PALP_INLINE void tetPoint(const Geometry& geo, const TetState& state, int q, Point& m, Pack gradient[3]) {
   const double* l = tetRule.l[q];
   bubbleGradient(geo, l, gradient);
   for (int r = 0; r < 3; ++r)
@@ -111,7 +111,8 @@ PALP_INLINE void tetPoint(const Geometry& geo, const TetState& state, int q, Rub
            l[0] * state.pressure[0] + l[1] * state.pressure[1] + l[2] * state.pressure[2] + l[3] * state.pressure[3]);
 }
 
-PALP_INLINE void addTetPoint(const Rubber& m, const Pack gradient[3], Pack weight, const double* l, TetSums& sums) {
+template <class Point>
+PALP_INLINE void addTetPoint(const Point& m, const Pack gradient[3], Pack weight, const double* l, TetSums& sums) {
   Pack P[3][3];
   weightedStress(m, weight, P);
   for (int k = 0; k < 4; ++k)
@@ -120,7 +121,7 @@ PALP_INLINE void addTetPoint(const Rubber& m, const Pack gradient[3], Pack weigh
   for (int r = 0; r < 3; ++r) sums.bubble[r] += P[r][0] * gradient[0] + P[r][1] * gradient[1] + P[r][2] * gradient[2];
   const Pack growth = weight * (m.J - 1.0);
   for (int k = 0; k < 4; ++k) sums.volume[k] += l[k] * growth;
-  sums.smallestJ = smaller(sums.smallestJ, m.J);
+  sums.smallestJ = smaller(sums.smallestJ, m.leastJ);
   sums.largestJ = larger(sums.largestJ, m.J);
 }
 
@@ -152,7 +153,7 @@ PALP_INLINE void storeTetResidual(const Geometry& geo, const TetState& state, co
   store(out.volumeRange + 8 + lane, sums.largestJ);
 }
 
-template <class Geometry>
+template <class Point, class Geometry>
 PALP_INLINE void tetResidual(const RubberConstants& rubber, const Geometry& geo, const ElementInput& in,
                              const ElementResidual& out, int lane) {
   TetState state;
@@ -160,9 +161,8 @@ PALP_INLINE void tetResidual(const RubberConstants& rubber, const Geometry& geo,
   TetSums sums;
   sums.smallestJ = load(out.volumeRange + lane);
   sums.largestJ = load(out.volumeRange + 8 + lane);
-  Rubber m;
-  m.c10 = rubber.c10_MPa;
-  m.c01 = rubber.c01_MPa;
+  Point m;
+  m.law = decltype(m.law)(rubber);
 #pragma GCC unroll 1
   for (int q = 0; q < Tet::points; ++q) {
     Pack gradient[3];
@@ -182,6 +182,7 @@ PALP_INLINE void tetShapeGradients(const LaneGeometry& geo, const double* l, con
 }
 
 /// Residual and uncondensed stiffness of the elements in the lanes.
+template <class Point>
 PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput& in, const ElementResidual& out,
                               int lane, Pack K[Tet::rows][Tet::rows]) {
   const LaneGeometry geo = tetGeometry(in.geometry + lane);
@@ -192,9 +193,8 @@ PALP_INLINE void tetStiffness(const RubberConstants& rubber, const ElementInput&
   sums.largestJ = load(out.volumeRange + 8 + lane);
   for (int i = 0; i < Tet::rows; ++i)
     for (int j = 0; j < Tet::rows; ++j) K[i][j] = Pack{};
-  Rubber m;
-  m.c10 = rubber.c10_MPa;
-  m.c01 = rubber.c01_MPa;
+  Point m;
+  m.law = decltype(m.law)(rubber);
 #pragma GCC unroll 1
   for (int q = 0; q < Tet::points; ++q) {
     Pack gradient[3], N[11][3];

@@ -1,3 +1,4 @@
+#include "model/base/Text.h"
 #include "tests/app/cli/Process.h"
 #include "tests/io/TemporaryFolder.h"
 
@@ -38,6 +39,31 @@ TEST(Commands, LookingAtTheDesignStartsNoMesh) {
   EXPECT_EQ(result.at("command"), "design");
   EXPECT_TRUE(result.at("stages").empty());
   EXPECT_GT(result.at("peak_memory_MB").get<double>(), 0);
+}
+
+TEST(Commands, MaterialFitFindsALawAndWritesTheMaterialThatADesignTakes) {
+  const palp::TemporaryFolder folder;
+  std::string csv = "strain,stress_kPa\n"; // of Yeoh's law with c10 0.02, c20 0.001, c30 0 MPa
+  for (const double l : {0.6, 0.7, 0.8, 0.9, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0}) {
+    const double s = l * l + 2 / l - 3, stress = 2e3 * (l - 1 / (l * l)) * (0.02 + 2 * 0.001 * s);
+    csv += palp::text(l - 1) + "," + palp::text(stress) + "\n";
+  }
+  writeAll(folder / "test.csv", csv);
+  const Outcome outcome =
+      palp::test::palp({"material", "fit", folder / "test.csv", "--law", "yeoh", "-o", folder / "curve.csv", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.errors;
+  const json result = outcome.json();
+  EXPECT_EQ(result.at("material").at("law"), "yeoh");
+  EXPECT_NEAR(result.at("material").at("c10_MPa").get<double>(), 0.02, 1e-9);
+  EXPECT_NEAR(result.at("material").at("c20_MPa").get<double>(), 0.001, 1e-9);
+  EXPECT_EQ(result.at("fits").at(0).at("covariance").size(), 3U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "curve.csv"));
+  json design = palp::test::palp({"design", "--json"}).json().at("design");
+  design["material"] = result.at("material");
+  writeAll(folder / "yeoh.json", design.dump());
+  const json checked = palp::test::palp({"design", "--check", folder / "yeoh.json", "--json"}).json();
+  EXPECT_EQ(checked.at("rubber_law"), "yeoh");
+  EXPECT_NEAR(checked.at("shear_modulus_MPa").get<double>(), 0.04, 1e-8);
 }
 
 TEST(Commands, AProgramThatWasMovedWithItsFolderFindsWhatShipsWithIt) {

@@ -36,8 +36,7 @@ SensorDesign scaled(SensorDesign design, const Units& units) {
     scale(layer->along_mm, units.length);
     scale(layer->z_mm, units.length);
   }
-  design.material.c10_MPa *= units.modulus;
-  design.material.c01_MPa *= units.modulus;
+  design.material.law = timesStress(design.material.law, units.modulus);
   if (auto* field = std::get_if<FieldLaw>(&design.resistance)) field->electrodeRadius_mm *= units.length;
   design.forceRange.low_N *= units.force();
   design.forceRange.high_N *= units.force();

@@ -1,6 +1,6 @@
 #include "tests/solver/TestBlocks.h"
 
-#include "solver/element/MooneyRivlin.h"
+#include "solver/element/RubberStress.h"
 #include "solver/linear/NestedDissection.h"
 
 #include <gtest/gtest.h>
@@ -133,11 +133,11 @@ Written ofElements(const ElementKernels& kernels, const Deformed& deformed) {
     mesh.gather(b, deformed.state.displacements, u.data());
     const ElementInput in{mesh.geometry(b), u.data(),
                           deformed.state.unknowns.data() + std::size_t(b) * mesh.unknowns() * lanes};
-    kernels.residual(rubber, in, {out.forces.data(), out.local.data(), out.range.data()});
+    kernels.of(rubber).residual(rubber, in, {out.forces.data(), out.local.data(), out.range.data()});
     out.condensed = out.forces;
     // The tangent's kernel writes the same forces again.
-    kernels.tangent(rubber, in, {out.forces.data(), out.local.data(), out.range.data()},
-                    {out.stiffness.data(), out.elimination.data(), out.inverse.data()});
+    kernels.of(rubber).tangent(rubber, in, {out.forces.data(), out.local.data(), out.range.data()},
+                               {out.stiffness.data(), out.elimination.data(), out.inverse.data()});
     for (std::size_t i = 0; i < out.forces.size(); ++i) EXPECT_NEAR(out.condensed[i], out.forces[i], 1e-13);
     kernels.condense(out.elimination.data(), out.local.data(), out.condensed.data());
     kernels.recover(out.elimination.data(), out.inverse.data(), out.local.data(), u.data(), out.recovered.data());
@@ -168,7 +168,7 @@ Written ofLoads(const ElementKernels& kernels, const Deformed& deformed) {
                               inverse = lane(tangents.inverse, x * (x + 1) / 2, e);
     const ElementInput in{geometry.data(), u.data(),
                           deformed.state.unknowns.data() + std::size_t(e / lanes) * x * lanes};
-    kernels.residualOfLoads(rubber, in, {out.forces.data(), out.local.data(), out.range.data()});
+    kernels.of(rubber).residualOfLoads(rubber, in, {out.forces.data(), out.local.data(), out.range.data()});
     out.condensed = out.forces;
     kernels.condenseLoads(elimination.data(), out.local.data(), out.condensed.data());
     kernels.recoverLoads(elimination.data(), inverse.data(), out.local.data(), u.data(), out.recovered.data());
@@ -228,10 +228,10 @@ TEST_P(Kernels, OfOneElementAndEightLoadsAgreeWithThoseOfEightElements) {
   std::vector<double> u(eight.forces.size()), geometry(kernels.geometrySize);
   discretisation.gather(0, alike.state.displacements, u.data());
   for (std::size_t i = 0; i < geometry.size(); ++i) geometry[i] = discretisation.geometry(0)[i * lanes];
-  kernels.residual(rubber, {discretisation.geometry(0), u.data(), alike.state.unknowns.data()},
-                   {eight.forces.data(), eight.local.data(), eight.range.data()});
-  kernels.residualOfLoads(rubber, {geometry.data(), u.data(), alike.state.unknowns.data()},
-                          {one.forces.data(), one.local.data(), one.range.data()});
+  kernels.of(rubber).residual(rubber, {discretisation.geometry(0), u.data(), alike.state.unknowns.data()},
+                              {eight.forces.data(), eight.local.data(), eight.range.data()});
+  kernels.of(rubber).residualOfLoads(rubber, {geometry.data(), u.data(), alike.state.unknowns.data()},
+                                     {one.forces.data(), one.local.data(), one.range.data()});
   for (std::size_t i = 0; i < one.forces.size(); ++i) EXPECT_NEAR(one.forces[i], eight.forces[i], 1e-13) << i;
   for (std::size_t i = 0; i < one.local.size(); ++i) EXPECT_NEAR(one.local[i], eight.local[i], 1e-13) << i;
   for (std::size_t i = 0; i < one.range.size(); ++i) EXPECT_NEAR(one.range[i], eight.range[i], 1e-13) << i;
@@ -252,8 +252,9 @@ TEST_P(Kernels, InSinglePrecisionAreExactToItUnderAnyLoad) {
       for (double& v : u) v *= load;
       for (std::size_t i = 0; i < geometry.size(); ++i) geometry[i] = mesh.geometry(e / lanes)[i * lanes + e % lanes];
       const ElementInput in{geometry.data(), u.data(), x.data()};
-      kernels.residualOfLoads(rubber, in, {exact.forces.data(), exact.local.data(), exact.range.data()});
-      kernels.residualOfLoadsInSingle(rubber, in, {single.forces.data(), single.local.data(), single.range.data()});
+      kernels.of(rubber).residualOfLoads(rubber, in, {exact.forces.data(), exact.local.data(), exact.range.data()});
+      kernels.of(rubber).residualOfLoadsInSingle(rubber, in,
+                                                 {single.forces.data(), single.local.data(), single.range.data()});
       const auto differ = [](const std::vector<double>& a, const std::vector<double>& b) {
         double largest = 0, difference = 0;
         for (std::size_t i = 0; i < b.size(); ++i) {

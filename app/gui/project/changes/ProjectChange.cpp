@@ -46,8 +46,8 @@ QStringList designChanges(const SensorDesign& before, const SensorDesign& after)
   for (const DesignField& field : designFields()) {
     if (!field.has(after)) continue;
     const QString from = field.text(before), to = field.text(after);
-    if (from == to) continue;
-    if (!field.has(before)) { // comes with the law that was chosen
+    if (from == to || field.text(told) == to) continue; // the latter came with a law that was chosen
+    if (!field.has(before)) {                           // comes with the law that was chosen
       field.set(told, to);
       continue;
     }

@@ -58,7 +58,7 @@ public:
     touch.setLoad(otherLoad_);
     costs.push_back(cost(scene, "another load", touch, scene.stage));
     SensorDesign design = request_.design;
-    design.material.c10_MPa *= 0.9;
+    design.material.law = timesStress(design.material.law, 0.9);
     touch.setDesign(design);
     costs.push_back(cost(scene, "another material", touch, scene.stage));
     for (std::vector<double>& depths : design.lower.z_mm)

@@ -4,6 +4,7 @@
 #include "tests/app/gui/WindowFixture.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -47,6 +48,37 @@ protected:
     return {};
   }
 };
+
+TEST_F(DesignPanelTest, ALawOfTheRubberIsChosenWithItsOwnConstants) {
+  auto& law = find<QComboBox>("material.law");
+  EXPECT_TRUE(find<QLineEdit>("material.c20_MPa").isHidden());
+  law.setFocus();
+  QTest::keyClick(&law, Qt::Key_Down);
+  QTest::keyClick(&law, Qt::Key_Down);
+  settle();
+  const double mu = paperDesign().material.shearModulus_MPa();
+  EXPECT_EQ(workbench.project().design.material.law, RubberLaw(Yeoh{mu / 2, 0, 0})) << "as stiff as before";
+  EXPECT_TRUE(find<QLineEdit>("material.c01_MPa").isHidden());
+  EXPECT_TRUE(find<QLineEdit>("material.c20_MPa").isVisible());
+  EXPECT_EQ(workbench.history().undoText(), "rubber law Mooney-Rivlin -> Yeoh");
+  type("material.c20_MPa", "0.05");
+  EXPECT_EQ(workbench.project().design.material.law, RubberLaw(Yeoh{mu / 2, 0.05, 0}));
+  type("material.c10_MPa", "0");
+  EXPECT_TRUE(problemAt("material.c10_MPa").contains("above 0")) << problemAt("material.c10_MPa").toStdString();
+  SensorDesign ogden = paperDesign();
+  ogden.material.law = Ogden{{0.4, 0.02}, {2, 5}};
+  workbench.edit("another design", [&] {
+    Project next = workbench.project();
+    next.design = ogden;
+    return next;
+  }());
+  settle();
+  EXPECT_EQ(law.currentText(), "Ogden");
+  EXPECT_EQ(find<QLineEdit>("material.alpha").text(), "2, 5");
+  type("material.alpha", "2, 6");
+  EXPECT_EQ(workbench.project().design.material.law, RubberLaw(Ogden{{0.4, 0.02}, {2, 6}}));
+  EXPECT_EQ(overlaps(), QString());
+}
 
 TEST_F(DesignPanelTest, AnErrorStandsUnderItsFieldAndCoversNoOther) {
   settle();

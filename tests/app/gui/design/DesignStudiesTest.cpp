@@ -31,8 +31,7 @@ protected:
   DesignStudies() { window.showScene("design"); }
   void soften() {
     Project softer = workbench.project();
-    softer.design.material.c10_MPa *= 0.5;
-    softer.design.material.c01_MPa *= 0.5;
+    softer.design.material.law = timesStress(softer.design.material.law, 0.5);
     workbench.edit("softer", softer);
   }
   void open(int tab) {
@@ -213,7 +212,7 @@ TEST_F(DesignStudies, CompareADesignAtOnceWithTheOneBeforeTheLastChange) {
 
 TEST_F(DesignStudies, TheSizesOfABlockThatAreTypedOneByOneAreOneChange) {
   Project softer = workbench.project();
-  softer.design.material.c10_MPa *= 0.9;
+  std::get<MooneyRivlin>(softer.design.material.law).c10_MPa *= 0.9;
   workbench.edit("softer", softer);
   find<QCheckBox>("scaleWires").setChecked(true);
   for (const auto& [name, size] : {std::pair{"block_mm[0]", "40"}, {"block_mm[1]", "40"}, {"block_mm[2]", "8"}}) {
@@ -246,7 +245,7 @@ TEST_F(DesignStudies, AComparisonThatIsStoppedSaysSoAndKeepsTheOneBefore) {
 TEST_F(DesignStudies, AreKeptByTheProjectAndFaintWhereTheDesignIsAnotherOne) {
   Project next = workbench.project();
   const SensorDesign before = next.design;
-  next.design.material.c10_MPa *= 0.5;
+  std::get<MooneyRivlin>(next.design.material.law).c10_MPa *= 0.5;
   SensorDesign layout = next.design;
   layout.upper.z_mm = {{3.5}};
   const BoundSummary bounds{{11.1, 21, 15}, {19.3, 67.2, 61.1}, {2, 1.7, 2.1}, {2, 1.7, 2.1}};
@@ -277,7 +276,7 @@ TEST_F(DesignStudies, AreKeptByTheProjectAndFaintWhereTheDesignIsAnotherOne) {
   EXPECT_TRUE(find<HeatmapView>("comparisonMap").isVisible());
   EXPECT_TRUE(find<QLabel>("comparisonState").isHidden()) << find<QLabel>("comparisonState").text().toStdString();
   Project other = workbench.project();
-  other.design.material.c01_MPa *= 0.5;
+  std::get<MooneyRivlin>(other.design.material.law).c01_MPa *= 0.5;
   workbench.edit("softer", other);
   EXPECT_FALSE(find<QLabel>("comparisonState").isHidden());
   EXPECT_FALSE(find<QLabel>("designSweepState").isHidden());

@@ -21,8 +21,7 @@ namespace {
 
 SensorDesign softer() {
   SensorDesign design = paperDesign();
-  design.material.c10_MPa *= 0.5;
-  design.material.c01_MPa *= 0.5;
+  design.material.law = timesStress(design.material.law, 0.5);
   return design;
 }
 

@@ -89,7 +89,7 @@ TEST_F(Exporting, AVtuGetsItsEndingAndTheKeptDesignsFieldsWhereTheyAreShown) {
   EXPECT_FALSE(bytesOf(folder.filePath("shown.vtu")).contains("kept_displacement_mm"));
   Project next = workbench.project();
   next.kept = next.design;
-  next.kept->material.c10_MPa *= 0.5;
+  std::get<MooneyRivlin>(next.kept->material.law).c10_MPa *= 0.5;
   next.view.lessReference = true;
   workbench.edit("keep", next);
   ASSERT_TRUE(QTest::qWaitFor([&] { return workbench.referencePath() != nullptr && !window.busy(); }, kPatience_ms));
@@ -153,7 +153,7 @@ TEST_F(Exporting, ATableSaysWhatHasChangedSinceItWasComputed) {
   ASSERT_TRUE(idle());
   window.showScene("design"); // which computes no solution
   Project next = workbench.project();
-  next.design.material.c10_MPa *= 2;
+  std::get<MooneyRivlin>(next.design.material.law).c10_MPa *= 2;
   next.design.block_mm.x() = 31;
   workbench.edit("softer", next);
   answerFileDialog(folder.filePath("old"));

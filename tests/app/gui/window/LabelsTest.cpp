@@ -34,7 +34,7 @@ TEST_F(Labels, ShowADesignsNameThatLooksLikeMarkupAsItIsWritten) {
   Project next = workbench.project();
   DesignsCompared& compared = next.studies.compared.emplace();
   compared.earlier = compared.now = next.design;
-  compared.earlier.material.c10_MPa *= 2;
+  std::get<MooneyRivlin>(compared.earlier.material.law).c10_MPa *= 2;
   compared.name = "<b>x</b> & <i>y";
   compared.words = "Largest displacement <b>0.1 mm</b> now.<br><img src=\"y\">";
   workbench.edit("compare", next);

@@ -69,7 +69,7 @@ TEST_P(EveryReport, StopsAndWritesNothing) {
 TEST_P(EveryReport, RefusesADesignThatCannotBe) {
   const palp::TemporaryFolder folder;
   palp::ReportRequest request = quickRequest(folder);
-  request.design.material.c10_MPa = -1;
+  std::get<MooneyRivlin>(request.design.material.law).c10_MPa = -1;
   EXPECT_THROW(runReport(kind(), request, {}, {}, {}), palp::Error);
 }
 

@@ -57,7 +57,7 @@ TEST(StabilityCase, SamplesWithoutASolutionAreOneThatSaysSo) {
   std::vector<StabilityRow> rows;
   palp::StabilityCases cases(rows, {}, {});
   palp::ReportRequest request;
-  request.design.material.c01_MPa = -0.32; // nearly no shear stiffness is left
+  std::get<MooneyRivlin>(request.design.material.law).c01_MPa = -0.32; // nearly no shear stiffness is left
   request.mesh.mapped = std::array<int, 3>{4, 4, 2};
   request.perArea = 5;
   palp::StageLog stages;

@@ -73,7 +73,7 @@ TEST(Touch, AnotherMaterialKeepsTheMesh) {
   Touch touch = coarseTouch();
   touch.advance(Stage::Resistances);
   palp::SensorDesign softer = touch.design();
-  softer.material.c10_MPa /= 2;
+  std::get<MooneyRivlin>(softer.material.law).c10_MPa /= 2;
   touch.setDesign(softer);
   touch.advance(Stage::Resistances);
   EXPECT_EQ(touch.stages().runs("mesh"), 1);

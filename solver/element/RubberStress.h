@@ -6,7 +6,10 @@
 
 namespace palp {
 
-/// Isochoric part of the energy [MPa]: c10 (I1bar - 3) + c01 (I2bar - 3).
+// Stresses of every law in double precision, independent of the element kernels: for fields at the nodes and for
+// checks.
+
+/// Isochoric part of the energy [MPa] at the deformation gradient F.
 double isochoricEnergy(const Material& material, const Eigen::Matrix3d& F);
 
 /// First Piola-Kirchhoff stress [MPa] with the pressure (tension positive) as an unknown of its own.

@@ -5,7 +5,7 @@
 namespace palp {
 
 double Material::shearModulus_MPa() const {
-  return 2 * (c10_MPa + c01_MPa);
+  return palp::shearModulus_MPa(law);
 }
 
 double Material::compressibility_per_MPa() const {
