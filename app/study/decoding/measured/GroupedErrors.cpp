@@ -22,7 +22,8 @@ Eigen::MatrixXd answers(const Decoder& decoder, const SampleSet& samples) {
   bare.standardDeviation = bare.area = false;
   const Prediction prediction = predict(decoder, inputsOf(samples, decoder.input), bare);
   Eigen::MatrixXd all(prediction.forces_N.rows() + prediction.places_mm.rows(), samples.size());
-  all << prediction.forces_N, prediction.places_mm;
+  all.topRows(prediction.forces_N.rows()) = prediction.forces_N;
+  if (prediction.places_mm.rows() > 0) all.bottomRows(prediction.places_mm.rows()) = prediction.places_mm;
   return all;
 }
 
