@@ -85,10 +85,12 @@ std::vector<std::string> measuredSentences(const Decoder& decoder, std::size_t s
 
 std::string keptBackInWords(const Decoder& decoder, const Prediction& prediction, const SampleSet& kept) {
   Eigen::MatrixXd errors(decoder.answers(), kept.size()), deviations(decoder.answers(), kept.size());
-  errors << prediction.forces_N - kept.forces_N,
-      decoder.place ? Eigen::MatrixXd(prediction.places_mm - kept.touchedPlaces_mm()) : Eigen::MatrixXd(0, kept.size());
-  deviations << prediction.standardDeviation_N,
-      decoder.place ? prediction.placeDeviation_mm : Eigen::MatrixXd(0, kept.size());
+  errors.topRows(decoder.outputs()) = prediction.forces_N - kept.forces_N;
+  deviations.topRows(decoder.outputs()) = prediction.standardDeviation_N;
+  if (decoder.place) {
+    errors.bottomRows<2>() = prediction.places_mm - kept.touchedPlaces_mm();
+    deviations.bottomRows<2>() = prediction.placeDeviation_mm;
+  }
   std::string text = "error on the " + std::to_string(kept.size()) +
                      " samples kept back: " + errorsText(decoder, errors.array().square().rowwise().mean().sqrt());
   double within = 0, counted = 0;
