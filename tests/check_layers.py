@@ -34,6 +34,7 @@ MOST_SOURCES = 30  # in one folder, its sub-folders apart
 # Packages by their headers, and the folders that may include them.
 PACKAGES = {
     r"Eigen/.*": set(FOLDERS),
+    r"unsupported/Eigen/LevenbergMarquardt": {"app/study"},
     r"tetgen\.h": {"solver"},
     r"(suitesparse/)?cholmod\.h": {"solver"},
     r"hidapi(/hidapi)?\.h": {"io"},

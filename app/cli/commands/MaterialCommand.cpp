@@ -1,5 +1,6 @@
 #include "app/cli/Cli.h"
 #include "app/cli/Options.h"
+#include "app/cli/ProgressBar.h"
 #include "app/study/material/LawFit.h"
 #include "io/AtomicFile.h"
 #include "io/DesignFile.h"
@@ -108,7 +109,7 @@ void print(const LawComparison& found, bool relative) {
               << (fit.heldOut ? shown(*fit.heldOut) : "not available") << '\n'
               << "  stable stretches: uniaxial " << rangeText(fit.stable[0]) << ", equibiaxial "
               << rangeText(fit.stable[1]) << ", planar " << rangeText(fit.stable[2])
-              << (fit.stableOnRows ? "" : "; NOT stable over the rows") << '\n';
+              << (fit.stableOnRows ? "" : "; not stable over the rows") << '\n';
   }
   for (const LawWithoutFit& without : found.without)
     std::cout << without.candidate.name() << ": not fitted: " << without.reason << '\n';
@@ -134,7 +135,9 @@ Exit fit(const MaterialArguments& arguments, Session& session) {
   const std::vector<LawCandidate> candidates = candidatesOf(arguments);
   if (!arguments.output.path.empty()) arguments.output.requireWritable();
   const std::vector<TestRow> rows = rowsOf(arguments);
-  const LawComparison found = fitLaws(rows, candidates, residuals, session.stop);
+  ProgressBar bar("laws", 1000);
+  const LawComparison found = fitLaws(rows, candidates, residuals, session.stop,
+                                      [&](double share) { bar.show(static_cast<std::size_t>(1000 * share)); });
   session.warnings = found.warnings;
   session.result["rows"] = rows.size();
   session.result["residuals"] = arguments.residuals;
@@ -157,7 +160,7 @@ Exit fit(const MaterialArguments& arguments, Session& session) {
   }
   if (!session.json) {
     print(found, residuals == Residuals::Relative);
-    for (const std::string& warning : found.warnings) std::cout << "warning: " << warning << '\n';
+    for (const std::string& warning : found.warnings) std::cerr << "palp material: " << warning << '\n';
     if (chosen)
       std::cout << "\"material\": " << materialJson({.law = found.fits[*chosen].law, .poissonRatio = poissonRatio})
                 << '\n';

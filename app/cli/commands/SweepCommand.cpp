@@ -4,6 +4,7 @@
 #include "app/study/decoding/Prediction.h"
 #include "app/study/paper/PaperProtocol.h"
 #include "io/SampleFile.h"
+#include "model/base/Cancelled.h"
 #include "model/base/GotExpected.h"
 #include "model/base/Text.h"
 #include "nn/NoisyCopies.h"
@@ -98,14 +99,16 @@ std::vector<SweepRow> sweepMeasured(const SplitSamples& samples, const TrainOpti
   const Eigen::MatrixXd inputs =
       noisyCopies(inputsOf(samples.test, chosen.input), testNoise, 1, testSeed(options.seed), stop);
   std::vector<SweepRow> rows;
-  for (const double spread : spreads) {
-    if (stop.stop_requested()) return rows;
-    options.spread = spread;
-    Decoder decoder = trainDecoder(samples.training, nullptr, options, stop);
-    Prediction prediction = predict(decoder, samples.test, inputs, bare);
-    rows.push_back({spread, decoderError(decoder, prediction, samples.test).error, std::move(decoder.report),
-                    std::move(prediction.forces_N)});
-    progress(rows.size());
+  try {
+    for (const double spread : spreads) {
+      options.spread = spread;
+      Decoder decoder = trainDecoder(samples.training, nullptr, options, stop);
+      Prediction prediction = predict(decoder, samples.test, inputs, bare);
+      rows.push_back({spread, decoderError(decoder, prediction, samples.test).error, std::move(decoder.report),
+                      std::move(prediction.forces_N)});
+      progress(rows.size());
+    }
+  } catch (const Cancelled&) { // as sweepSpreads: the rows so far
   }
   return rows;
 }

@@ -90,7 +90,7 @@ void tryOn(const Decoder& decoder, const SampleSet& kept, Session& session) {
 /// Options of measured rows where none are trained.
 void requireMeasured(const SampleSet& samples, const TrainOptions& options) {
   if (trainsAsMeasured(samples, options)) return;
-  if (options.order && (!samples.origin.imported() || samples.together()))
+  if (options.order && !samples.origin.imported())
     throw UsageError("--order: is for measured samples (palp import); these samples were computed");
   for (const auto& [name, given] : {std::pair{"transform", options.transform.has_value()},
                                     {"memory", !options.memory.empty()},

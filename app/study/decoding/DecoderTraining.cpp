@@ -329,7 +329,6 @@ void DecoderTraining::fitAreas() {
 
 /// The same decoder, with spread and ridge as chosen, without the rows of each fold.
 void DecoderTraining::validateGroups() {
-  say(0.8, "validating");
   TrainOptions same = options_;
   if (options_.decoder == DecoderKind::Rbf) {
     same.spread = decoder_.report.spread;
@@ -338,7 +337,8 @@ void DecoderTraining::validateGroups() {
   const auto train = [&](const SampleSet& part) { return DecoderTraining(part, design_, same, stop_, {}).run(false); };
   try {
     const GroupedErrors found =
-        groupedErrors(samples_, measuredRows(samples_, inputs_, targets_), options_.order, train, stop_);
+        groupedErrors(samples_, measuredRows(samples_, inputs_, targets_), options_.order, train, stop_,
+                      [this](double share) { say(0.3 + 0.6 * share, "validating"); });
     recordResiduals(found.errors, samples_.area);
     decoder_.report.leftOut = leftOutInWords(found.dependence, static_cast<std::size_t>(samples_.size()));
   } catch (const Error& failed) {

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
+#include <limits>
 
 namespace palp {
 
@@ -18,20 +17,16 @@ constexpr int kFolds = 5;
 constexpr double kLeastStretchShown = 0.2, kMostStretchShown = 8;
 constexpr double kSmallestShare = 0.01; // of the largest stress, that relative residuals divide by at least
 
-double at(const Eigen::VectorXd& values, Eigen::Index k) {
-  return values(k);
-}
-
 RubberLaw lawOf(const LawCandidate& candidate, const Eigen::VectorXd& v) {
   switch (candidate.kind) {
   case RubberLawKind::MooneyRivlin:
-    return MooneyRivlin{at(v, 0), at(v, 1)};
+    return MooneyRivlin{v(0), v(1)};
   case RubberLawKind::NeoHooke:
-    return NeoHooke{at(v, 0)};
+    return NeoHooke{v(0)};
   case RubberLawKind::Yeoh:
-    return Yeoh{at(v, 0), at(v, 1), at(v, 2)};
+    return Yeoh{v(0), v(1), v(2)};
   case RubberLawKind::Gent:
-    return Gent{at(v, 0), at(v, 1)};
+    return Gent{v(0), v(1)};
   case RubberLawKind::Ogden: {
     Ogden law{{}, {}};
     for (int k = 0; k < candidate.terms; ++k) {
@@ -173,10 +168,13 @@ std::optional<Eigen::VectorXd> fitted(const LawCandidate& candidate, const FitPr
   std::optional<Eigen::VectorXd> best;
   double least = INFINITY;
   for (const Eigen::VectorXd& start : starts) {
-    if (stop.stop_requested()) throw Cancelled();
     if (!allowed(candidate, start)) continue;
     const Minimum minimum = levenbergMarquardt(
-        start, [&](const Eigen::VectorXd& v) { return problem.residuals(lawOf(candidate, v)); },
+        start,
+        [&](const Eigen::VectorXd& v) {
+          throwIfStopped(stop);
+          return problem.residuals(lawOf(candidate, v));
+        },
         [&](const Eigen::VectorXd& v) { return allowed(candidate, v); });
     if (!(minimum.squares < least * (1 - 1e-9))) continue; // of equal optima, the first
     least = minimum.squares;
@@ -289,7 +287,7 @@ std::vector<LawCandidate> lawCandidates() {
 }
 
 LawComparison fitLaws(const std::vector<TestRow>& given, const std::vector<LawCandidate>& candidates,
-                      Residuals residuals, const std::stop_token& stop) {
+                      Residuals residuals, const std::stop_token& stop, const std::function<void(double)>& progress) {
   std::vector<TestRow> rows;
   double largest_MPa = 0;
   for (const TestRow& row : given)
@@ -299,7 +297,9 @@ LawComparison fitLaws(const std::vector<TestRow>& given, const std::vector<LawCa
     }
   LawComparison comparison;
   const FitProblem problem = problemOf(rows, residuals, largest_MPa);
+  std::size_t done = 0;
   for (const LawCandidate& candidate : candidates) {
+    if (progress) progress(static_cast<double>(done++) / static_cast<double>(candidates.size()));
     if (static_cast<int>(rows.size()) < candidate.constants()) {
       comparison.without.push_back(
           {candidate, gotExpected(std::to_string(rows.size()) + " rows",

@@ -3,6 +3,7 @@
 #include "model/base/PositiveSolve.h"
 
 #include <Eigen/QR>
+#include <unsupported/Eigen/LevenbergMarquardt>
 
 #include <cmath>
 #include <limits>
@@ -54,34 +55,48 @@ Eigen::MatrixXd differences(const Eigen::VectorXd& at, const ResidualsOf& residu
   return J;
 }
 
+namespace {
+
+/// The residuals as Eigen's solver wants them.
+struct Functor : Eigen::DenseFunctor<double> {
+  Functor(Eigen::Index count, const ResidualsOf& of, const std::function<bool(const Eigen::VectorXd&)>& may,
+          const Eigen::VectorXd& start)
+      : DenseFunctor(static_cast<int>(start.size()), static_cast<int>(count)), residuals(of), allowed(may) {}
+
+  /// What is not allowed is far from the minimum, so that the step is shortened.
+  int operator()(const Eigen::VectorXd& at, Eigen::VectorXd& values) const {
+    constexpr double far = 1e150;
+    if (allowed(at)) values = residuals(at);
+    if (!allowed(at) || !values.allFinite()) values.setConstant(this->values(), far);
+    return 0;
+  }
+  /// Ends the search where there is no slope.
+  int df(const Eigen::VectorXd& at, Eigen::MatrixXd& slope) const {
+    slope = differences(at, residuals);
+    return slope.allFinite() ? 0 : -1;
+  }
+
+  const ResidualsOf& residuals;
+  const std::function<bool(const Eigen::VectorXd&)>& allowed;
+};
+
+} // namespace
+
 Minimum levenbergMarquardt(const Eigen::VectorXd& start, const ResidualsOf& residuals,
                            const std::function<bool(const Eigen::VectorXd&)>& allowed) {
-  constexpr int iterations = 200;
-  constexpr double ends = 1e-12; // relative change of the squares
-  Minimum now{start, residuals(start).squaredNorm()};
-  if (!std::isfinite(now.squares)) now.squares = std::numeric_limits<double>::infinity();
-  double damping = 1e-3;
-  for (int k = 0; k < iterations && std::isfinite(now.squares); ++k) {
-    Eigen::VectorXd lengths;
-    const Eigen::MatrixXd J = normalised(differences(now.at, residuals), lengths);
-    if (!J.allFinite()) break;
-    const Eigen::VectorXd gradient = J.transpose() * residuals(now.at);
-    bool better = false;
-    const double before = now.squares;
-    for (int trial = 0; trial < 20 && !better; ++trial) {
-      Eigen::MatrixXd squares = J.transpose() * J;
-      squares.diagonal().array() += damping;
-      const auto factor = positiveFactor(squares);
-      if (!factor) return now;
-      const Eigen::VectorXd next = now.at - factor->solve(gradient).cwiseQuotient(lengths);
-      const double at = allowed(next) ? residuals(next).squaredNorm() : std::numeric_limits<double>::infinity();
-      better = at < now.squares; // false for not a number
-      if (better) now = {next, at};
-      damping *= better ? 0.3 : 4;
-    }
-    if (!better || before - now.squares < ends * before) break;
-  }
-  return now;
+  constexpr int evaluations = 2000;
+  constexpr double ends = 1e-12; // relative change of the squares, or of the parameters
+  const Eigen::VectorXd first = residuals(start);
+  Minimum found{start, first.squaredNorm()};
+  if (!std::isfinite(found.squares)) return {start, std::numeric_limits<double>::infinity()};
+  Functor functor(first.size(), residuals, allowed, start);
+  Eigen::LevenbergMarquardt<Functor> search(functor);
+  search.setFtol(ends);
+  search.setXtol(ends);
+  search.setMaxfev(evaluations);
+  search.minimize(found.at);
+  found.squares = search.fnorm() * search.fnorm();
+  return found;
 }
 
 } // namespace palp

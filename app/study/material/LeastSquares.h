@@ -24,8 +24,8 @@ struct Minimum {
   double squares = 0; ///< |residuals|^2
 };
 
-/// A local minimum of |residuals|^2 by the method of Levenberg and Marquardt (Marquardt, SIAM J. Appl. Math. 11, 1963)
-/// from `start`, which must be allowed. Steps to what is not allowed, or gives residuals that are not finite, are
+/// A local minimum of |residuals|^2 by the method of Levenberg and Marquardt (Eigen's, after MINPACK's lmder) from
+/// `start`, which must be allowed. Steps to what is not allowed, or gives residuals that are not finite, are
 /// shortened.
 Minimum levenbergMarquardt(const Eigen::VectorXd& start, const ResidualsOf& residuals,
                            const std::function<bool(const Eigen::VectorXd&)>& allowed);

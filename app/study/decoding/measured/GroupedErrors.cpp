@@ -38,12 +38,16 @@ MeasuredRows measuredRows(const SampleSet& samples, const Eigen::MatrixXd& input
 }
 
 GroupedErrors groupedErrors(const SampleSet& samples, const MeasuredRows& rows, const std::optional<RowOrder>& order,
-                            const std::function<Decoder(const SampleSet&)>& train, const std::stop_token& stop) {
+                            const std::function<Decoder(const SampleSet&)>& train, const std::stop_token& stop,
+                            const std::function<void(double)>& progress) {
   GroupedErrors found;
   found.dependence = findDependence(rows, order, stop);
   found.errors.resize(rows.targets.cols(), rows.size());
-  for (const Fold& fold : foldsFor(rows, found.dependence.order)) {
+  const std::vector<Fold> folds = foldsFor(rows, found.dependence.order);
+  for (std::size_t k = 0; k < folds.size(); ++k) {
     throwIfStopped(stop);
+    progress(static_cast<double>(k) / static_cast<double>(folds.size()));
+    const Fold& fold = folds[k];
     const Decoder decoder = train(samplesAt(samples, allBut(fold.leftOut, rows.size())));
     found.errors(Eigen::all, fold.judged) =
         rows.targets(fold.judged, Eigen::all).transpose() - answers(decoder, samplesAt(samples, fold.judged));

@@ -24,8 +24,9 @@ struct GroupedErrors {
 
 /// Trains once for each fold of rows that depend on each other, without them, and predicts them
 /// (resources/docs/numerics/measured.md). `rows` is of the same samples; `order` overrules the dependence that is
-/// detected. Throws what `train` throws, and Cancelled.
+/// detected. `progress` receives the share of the folds that are done. Throws what `train` throws, and Cancelled.
 GroupedErrors groupedErrors(const SampleSet& samples, const MeasuredRows& rows, const std::optional<RowOrder>& order,
-                            const std::function<Decoder(const SampleSet&)>& train, const std::stop_token& stop);
+                            const std::function<Decoder(const SampleSet&)>& train, const std::stop_token& stop,
+                            const std::function<void(double)>& progress);
 
 } // namespace palp
