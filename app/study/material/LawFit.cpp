@@ -14,6 +14,7 @@ namespace palp {
 namespace {
 
 constexpr int kFolds = 5;
+constexpr std::size_t kRowsOfSearch = 200; // for the minimum among many
 constexpr double kLeastStretchShown = 0.2, kMostStretchShown = 8;
 constexpr double kSmallestShare = 0.01; // of the largest stress, that relative residuals divide by at least
 
@@ -162,9 +163,22 @@ bool allowed(const LawCandidate& candidate, const Eigen::VectorXd& v) {
   return shearModulus_MPa(lawOf(candidate, v)) > 0;
 }
 
-std::optional<Eigen::VectorXd> fitted(const LawCandidate& candidate, const FitProblem& problem,
-                                      const std::vector<Eigen::VectorXd>& starts, const std::stop_token& stop) {
-  if (isLinear(candidate)) return linearFit(candidate, problem);
+/// The problem with every k-th row, of which there are about `most`.
+FitProblem thinned(const FitProblem& problem, std::size_t most) {
+  const std::size_t step = (problem.rows.size() + most - 1) / most;
+  FitProblem few;
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t i = 0; i < problem.rows.size(); i += step) {
+    few.rows.push_back(problem.rows[i]);
+    chosen.push_back(static_cast<Eigen::Index>(i));
+  }
+  few.scale = problem.scale(chosen);
+  return few;
+}
+
+/// The smallest of the minima that the starts lead to.
+std::optional<Eigen::VectorXd> bestMinimum(const LawCandidate& candidate, const FitProblem& problem,
+                                           const std::vector<Eigen::VectorXd>& starts, const std::stop_token& stop) {
   std::optional<Eigen::VectorXd> best;
   double least = INFINITY;
   for (const Eigen::VectorXd& start : starts) {
@@ -181,6 +195,15 @@ std::optional<Eigen::VectorXd> fitted(const LawCandidate& candidate, const FitPr
     best = minimum.at;
   }
   return best;
+}
+
+/// Many starts are tried on a part of the rows, whose best minimum is the start for all of them.
+std::optional<Eigen::VectorXd> fitted(const LawCandidate& candidate, const FitProblem& problem,
+                                      const std::vector<Eigen::VectorXd>& starts, const std::stop_token& stop) {
+  if (isLinear(candidate)) return linearFit(candidate, problem);
+  if (starts.size() < 2 || problem.rows.size() <= kRowsOfSearch) return bestMinimum(candidate, problem, starts, stop);
+  const auto near = bestMinimum(candidate, thinned(problem, kRowsOfSearch), starts, stop);
+  return near ? bestMinimum(candidate, problem, {*near}, stop) : std::nullopt;
 }
 
 double rmsOf(const Eigen::VectorXd& residuals) {

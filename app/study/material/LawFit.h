@@ -58,9 +58,9 @@ struct LawComparison {
 
 /// Fits each candidate to the rows, all modes together, by least squares. Laws that are linear in their constants by
 /// QR; Gent's and Ogden's by the method of Levenberg and Marquardt from a fixed set of starts, as Ogden's sums have
-/// several optima (Ogden, Saccomandi and Sgura, Computational Mechanics 34, 2004). Held-out errors: each mode's rows,
-/// ordered by stretch, in five successive parts, each predicted by a fit to the other four. `progress` receives the
-/// share of the candidates that are fitted. Throws Cancelled.
+/// several optima, found among 200 rows and refined with all (Ogden, Saccomandi and Sgura, Computational Mechanics 34,
+/// 2004). Held-out errors: each mode's rows, ordered by stretch, in five successive parts, each predicted by a fit to
+/// the other four. `progress` receives the share of the candidates that are fitted. Throws Cancelled.
 LawComparison fitLaws(const std::vector<TestRow>& rows, const std::vector<LawCandidate>& candidates,
                       Residuals residuals, const std::stop_token& stop = {},
                       const std::function<void(double)>& progress = {});

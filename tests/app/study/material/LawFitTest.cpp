@@ -97,6 +97,18 @@ TEST(LawFit, FindsTheConstantsThatMadeTheRows) {
   }
 }
 
+TEST(LawFit, OfManyRowsIsThatOfFew) {
+  const Ogden law{{0.3, -0.05}, {1.7, -3}};
+  std::vector<TestRow> rows;
+  for (int k = 0; k <= 2000; ++k) {
+    const double stretch = 0.6 + 0.001 * k;
+    rows.push_back({TestMode::Uniaxial, stretch, nominalStress_MPa(law, TestMode::Uniaxial, stretch)});
+  }
+  const LawComparison found = fitLaws(rows, {{RubberLawKind::Ogden, 2}}, Residuals::Absolute);
+  ASSERT_EQ(found.fits.size(), 1U);
+  EXPECT_LT(found.fits[0].rms_MPa, 1e-6);
+}
+
 TEST(LawFit, HasTheDeviationsOfTheConstantsUnderNoise) {
   // y = 2 c (l - l^-2) + noise: var c = s^2 / sum x^2, s^2 of the residuals.
   std::vector<TestRow> rows;
