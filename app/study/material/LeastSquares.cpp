@@ -57,13 +57,13 @@ Eigen::MatrixXd differences(const Eigen::VectorXd& at, const ResidualsOf& residu
 
 namespace {
 
-/// The residuals as Eigen's solver wants them.
+/// The residuals as Eigen's solver calls them.
 struct Functor : Eigen::DenseFunctor<double> {
   Functor(Eigen::Index count, const ResidualsOf& of, const std::function<bool(const Eigen::VectorXd&)>& may,
           const Eigen::VectorXd& start)
       : DenseFunctor(static_cast<int>(start.size()), static_cast<int>(count)), residuals(of), allowed(may) {}
 
-  /// What is not allowed is far from the minimum, so that the step is shortened.
+  /// Far from the minimum for parameters that are not allowed, so that the step is shortened.
   int operator()(const Eigen::VectorXd& at, Eigen::VectorXd& values) const {
     constexpr double far = 1e150;
     if (allowed(at)) values = residuals(at);
